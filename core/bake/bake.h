@@ -1,0 +1,50 @@
+#pragma once
+
+#include "bake/cache.h"
+#include "bake/ground_bake.h"
+#include "base/job.h"
+#include "base/result.h"
+#include "project/project.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace sward::bake {
+
+/// What happened to one node of the bake graph.
+struct NodeReport {
+  enum class State { Baked, FromMemory, FromDisk, Skipped };
+  std::string kind;  ///< such as "hits", "luminance", "fit", "tiles"
+  std::string what;  ///< such as "slices, light 3"
+  State state = State::Baked;
+  double seconds = 0.0;
+  std::uint64_t bytes = 0;
+};
+
+struct BakeReport {
+  std::vector<NodeReport> nodes;
+  std::uint64_t raysNearest = 0, raysOcclusion = 0;
+  double seconds = 0.0;
+};
+
+/// Walks the bake graph (design.md) from the ground's end: a node whose result is cached asks nothing of its inputs.
+/// Holds the memory cache; the disk cache is optional. Not thread-safe: one per thread of work.
+class Baker {
+ public:
+  explicit Baker(std::optional<DiskCache> cache = {});
+  ~Baker();
+  Baker(Baker&&) noexcept;
+  Baker& operator=(Baker&&) noexcept;
+
+  /// The ground of a valid project. `report`, when given, is filled with what was done.
+  Result<std::shared_ptr<const GroundBake>> ground(const project::Project& project, const JobContext& job,
+                                                   BakeReport* report = nullptr);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> m_impl;
+};
+
+}  // namespace sward::bake

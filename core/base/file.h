@@ -1,0 +1,30 @@
+#pragma once
+
+#include "base/result.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace sward::base {
+
+/// The whole file, at most `limitBytes` long; a missing, unreadable or larger file is an error that says which.
+Result<std::vector<std::byte>> readFile(const std::filesystem::path& path,
+                                        std::uint64_t limitBytes = std::uint64_t{4} << 30);
+Result<std::string> readTextFile(const std::filesystem::path& path, std::uint64_t limitBytes = std::uint64_t{64} << 20);
+
+/// Writes a temporary file beside `path` and renames it, so that `path` holds either its old content or all of the new.
+/// Creates no folders.
+Result<void> writeFileAtomically(const std::filesystem::path& path, std::span<const std::byte> data);
+Result<void> writeFileAtomically(const std::filesystem::path& path, const std::string& text);
+
+/// The same for writers that want a file name: calls write(temporaryPath) and renames its file to `path`; the temporary
+/// keeps the extension of `path`, and is removed when write fails.
+Result<void> writeThroughTemporary(const std::filesystem::path& path,
+                                   const std::function<Result<void>(const std::filesystem::path&)>& write);
+
+}  // namespace sward::base

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "base/result.h"
+#include "image/image.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace sward::image {
+
+/// Colour encoding of 8 and 16-bit integer files; float files (EXR, HDR) are always linear.
+enum class Encoding { Srgb, Linear };
+
+/// Largest width or height that is read or written; protects against hostile headers (2^30 pixels at most in all).
+inline constexpr int kMaxImageSide = 32768;
+
+/// Reads PNG, JPEG, EXR, HDR or TIFF into linear values; colour channels decode from `encoding` when the file is
+/// integer, alpha never does. Keeps the file's 1 to 4 channels (more are dropped).
+Result<Image> readImage(const std::filesystem::path& path, Encoding encoding = Encoding::Srgb);
+/// The same from memory; `name` stands in messages, its extension does not matter.
+Result<Image> readImage(std::span<const std::byte> data, const std::string& name, Encoding encoding = Encoding::Srgb);
+
+/// Writes display values in [0, 1] (already sRGB-encoded) as 8-bit PNG with an sRGB tag; 1, 3 or 4 channels.
+/// Written to a temporary and renamed.
+Result<void> writePng(const std::filesystem::path& path, const Image& encoded);
+/// Writes linear values as half-float EXR (ZIP), Rec. 709 primaries, channels Y, RGB or RGBA.
+Result<void> writeExr(const std::filesystem::path& path, const Image& linear);
+
+/// True when the extension (any case) is one that the writers above know: .png or .exr.
+bool canWriteImage(const std::filesystem::path& path);
+
+}  // namespace sward::image

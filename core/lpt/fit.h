@@ -1,0 +1,73 @@
+#pragma once
+
+#include "base/bytes.h"
+#include "base/job.h"
+#include "base/result.h"
+#include "lpt/options.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace sward::lpt {
+
+/// What a fit reads: sparse samples of a layer set (trace::LayerHits' layout), `channels` responses fitted with the
+/// same weights. All spans are the caller's.
+struct FitInput {
+  int columns = 0;
+  int layers = 0;                              ///< u of layer i is i / layers
+  std::span<const std::uint32_t> columnStart;  ///< columns + 1
+  std::span<const std::uint8_t> layer;         ///< one a texel
+  std::span<const float> coverage;             ///< alpha, one a texel
+  std::span<const float> visibility;           ///< delta, one a texel
+  int visibilityDirections = 16;               ///< m: weights never fall under 1/(2m)
+  std::span<const glm::dvec3> lights;          ///< unit vectors
+  int channels = 1;
+  /// samples[channel * lights.size() + k][texel] is the response under light k.
+  std::vector<std::span<const float>> samples;
+};
+
+enum class FitPath : std::uint8_t {
+  Empty,      ///< no texel: all coefficients 0
+  Moments,    ///< normal equations from precomputed moments, Cholesky
+  Orthogonal  ///< rank-revealing orthogonal decomposition: no ridge, too few lights, or a failed Cholesky
+};
+
+/// Coefficients of every column, with what is needed to judge them.
+struct Fit {
+  Basis basis = Basis::Lpt;
+  int columns = 0, layers = 0, channels = 1;
+  int perColumn = 10;               ///< coefficients of one channel of one column: 10 (LPT) or 6 * layers (PTM)
+  std::vector<float> coefficients;  ///< [column][channel][perColumn]; the ten are b of lptBasis (u, not v)
+  std::vector<std::uint8_t>
+      rank;  ///< numerical rank of the data alone (before the ridge), per column; PTM: the least of its layers'
+  std::vector<float> condition;  ///< 2-norm condition of the system solved, per column; 0 where empty
+  std::vector<float> weight;     ///< summed weight of the column's texels; 0 where empty
+  std::vector<FitPath> path;
+
+  std::span<const float> column(int column, int channel) const {
+    return std::span(coefficients)
+        .subspan((static_cast<std::size_t>(column) * static_cast<std::size_t>(channels) +
+                  static_cast<std::size_t>(channel)) *
+                     static_cast<std::size_t>(perColumn),
+                 static_cast<std::size_t>(perColumn));
+  }
+};
+
+/// Weighted, centred, regularised least squares of science.md section 1 (LPT, equation 4; PTM per layer texel), or the
+/// paper's own (options.paper). Samples that are not finite are left out (their row has no weight); the result never
+/// holds a NaN. Empty columns get zero coefficients. Same bytes on any number of threads. Errors: no lights, spans
+/// whose lengths do not match.
+Result<Fit> fit(const FitInput& input, const FitOptions& options, const JobContext& job);
+
+/// Fills empty columns from their neighbours on a periodic or bordered width x height image (pull-push, weighted by the
+/// columns' weight), so that filtering across an outline is sound. For PTM, every layer texel for itself is filled from
+/// its column's weight.
+void fillEmpty(Fit& fit, int width, int height, bool periodic);
+
+void save(base::ByteWriter& out, const Fit& fit);
+bool load(base::ByteReader& in, Fit& fit);
+
+}  // namespace sward::lpt

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace sward::render {
+
+enum class GroundMethod : std::uint8_t {
+  March,              ///< front to back through the layers in one pass, parallax, early out
+  BlendedNormalised,  ///< slices and blades blended as planes, weights that sum to 1
+  BlendedPaper        ///< the same with the paper's weights
+};
+enum class ViewTransform : std::uint8_t { Filmic, Standard };
+
+struct RenderOptions {
+  GroundMethod method = GroundMethod::March;
+  ViewTransform viewTransform = ViewTransform::Filmic;
+  double bladeAngleDeg = 30.0;  ///< theta0: blades fade out where the view is steeper than 90 - theta0 from the horizon
+  int samples = 16;             ///< sub-pixel samples of a picture
+  double macroVariation = 0.12;  ///< relative brightness variation over metres; 0: none
+  double macroScaleM = 6.0;
+  bool operator==(const RenderOptions&) const = default;
+};
+
+}  // namespace sward::render

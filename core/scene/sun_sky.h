@@ -1,0 +1,49 @@
+#pragma once
+
+#include "base/result.h"
+#include "image/image.h"
+#include "scene/options.h"
+
+#include <glm/glm.hpp>
+
+namespace sward::scene {
+
+/// Sun angles from date, time and place (the low-precision solar coordinates of the Astronomical Almanac; about 0.01
+/// degree, 1950 to 2050), with atmospheric refraction left out.
+SunAngles sunAngles(const SunMoment& moment);
+/// Unit vector toward the sun that the options give; an error for a date, hour or place that does not exist.
+Result<glm::dvec3> sunDirection(const SunOptions& options);
+
+/// Daylight of Preetham, Shirley and Smits (1999): sky radiance by Perez' formula, sun through Rayleigh, aerosol,
+/// ozone, gas and water absorption, in linear Rec. 709 RGB, scaled so that a clear noon's horizontal sun irradiance is
+/// near pi. Fades to a dim blue as the sun sets; never negative or NaN for any direction, elevation or turbidity in
+/// [1.7, 10].
+class Daylight {
+ public:
+  Daylight(const glm::dvec3& sunDirection, const SunOptions& sun, const SkyOptions& sky);
+
+  const glm::dvec3& sunDirection() const { return m_sunDirection; }
+  /// Irradiance on a plane that faces the sun; zero once the sun is below the horizon.
+  glm::dvec3 sunIrradiance() const { return m_sunIrradiance; }
+  /// Radiance of the sky toward a unit direction (the sun's disc left out); below the horizon, that of the horizon.
+  glm::dvec3 skyRadiance(const glm::dvec3& direction) const;
+  /// Cosine-weighted mean sky radiance over the upper hemisphere: irradiance of a horizontal plane divided by pi.
+  glm::dvec3 meanSkyRadiance() const { return m_meanSkyRadiance; }
+  /// A latitude-longitude map of skyRadiance over the upper hemisphere: column u is azimuth 360 u / width degrees
+  /// clockwise from north (texel centres), row v elevation 90 v / height degrees from the horizon (row 0) up, spaced as
+  /// the square of (v + 1/2) / height so that the horizon is finely sampled.
+  image::Image skyMap(int width, int height) const;
+  /// Exposure that brings a horizontal grey of 18 % under this light to mid-grey: 0.18 / its radiance.
+  double autoExposure() const;
+
+ private:
+  glm::dvec3 m_sunDirection;
+  glm::dvec3 m_sunIrradiance{0.0};
+  glm::dvec3 m_meanSkyRadiance{0.0};
+  glm::dvec3 m_zenith{0.0};  ///< Y, x, y at the zenith
+  glm::dvec3 m_perez[5];     ///< A to E, each for Y, x, y
+  glm::dvec3 m_perezAtZenith{1.0};
+  double m_skyScale = 1.0;
+};
+
+}  // namespace sward::scene

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "base/result.h"
+#include "scene/patch.h"
+
+#include <cstdint>
+#include <memory>
+
+#include <glm/glm.hpp>
+
+namespace sward::trace {
+
+/// Rays traced since the scene was made, for the report.
+struct RayCounts {
+  std::uint64_t nearest = 0;
+  std::uint64_t occlusion = 0;
+};
+
+/// An Embree scene of a patch: one bottom-level scene a model, instances on top, and with them those copies from the
+/// eight neighbouring patches that reach into the square. Rays that leave the square go on at the opposite side
+/// (exactly periodic, at any inclination), until they are above the patch's height. Alpha counts as a chance of a hit,
+/// decided by a hash of the ray and the primitive, so that results repeat.
+class PatchScene {
+ public:
+  /// An error when Embree cannot be had. A patch without instances is fine: nothing is ever hit.
+  static Result<std::unique_ptr<PatchScene>> create(std::shared_ptr<const scene::Patch> patch);
+  ~PatchScene();
+
+  const scene::Patch& patch() const;
+  RayCounts rayCounts() const;
+
+  struct Impl;
+  Impl& impl() const { return *m_impl; }  ///< for the sources of core/trace
+
+ private:
+  PatchScene();
+  std::unique_ptr<Impl> m_impl;
+};
+
+}  // namespace sward::trace

@@ -48,7 +48,8 @@ TEST(ParallelFor, StopsWhenCancelledAndPassesExceptionsOn) {
     if (++ran == 10) source.request_stop();
   });
   EXPECT_LT(ran.load(), 1000);
-  EXPECT_THROW(parallelFor({}, 4, 1, [](std::size_t, std::size_t) { throw std::runtime_error("x"); }), std::runtime_error);
+  EXPECT_THROW(parallelFor({}, 4, 1, [](std::size_t, std::size_t) { throw std::runtime_error("x"); }),
+               std::runtime_error);
 }
 
 TEST(Progress, RisesToOneAndReportsAtMostAHundredTimes) {
@@ -97,7 +98,7 @@ TEST(Bytes, RoundTripAndEveryTruncationIsNoticed) {
   out.text("grass");
   const std::vector<std::byte> data = out.take();
   for (std::size_t length = 0; length <= data.size(); ++length) {
-    ByteReader in(std::span(data).first(length));
+    ByteReader in(std::span<const std::byte>(data).first(length));
     std::uint32_t number = 0;
     std::vector<float> values;
     std::string text;

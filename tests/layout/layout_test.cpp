@@ -1,4 +1,5 @@
-// The architecture, checked on the include lines themselves: static libraries alone would let a header-only include pass.
+// The architecture, checked on the include lines themselves: static libraries alone would let a header-only include
+// pass.
 
 #include "base/file.h"
 
@@ -40,7 +41,9 @@ const std::map<std::string, std::set<std::string>>& allowedIncludes() {
   return allowed;
 }
 
-bool isSource(const fs::path& path) { return path.extension() == ".h" || path.extension() == ".cpp"; }
+bool isSource(const fs::path& path) {
+  return path.extension() == ".h" || path.extension() == ".cpp";
+}
 
 TEST(Layout, IncludesFollowTheArrows) {
   const std::regex include("#include \"([a-z_]+)/([a-z_0-9]+\\.h)\"");
@@ -69,8 +72,12 @@ TEST(Layout, IncludesFollowTheArrows) {
 
 TEST(Layout, HeavyLibrariesStayInTheirFolders) {
   const std::map<std::string, std::set<std::string>> homes{
-      {"embree3/", {"trace", "report", "bake"}}, {"EGL/", {"gpu"}},          {"GL/glcorearb.h", {"gpu"}},
-      {"tiny_gltf.h", {"mesh"}},                 {"OpenImageIO/", {"image"}}, {"Eigen/", {"lpt", "report"}},
+      {"embree3/", {"trace", "report", "bake"}},
+      {"EGL/", {"gpu"}},
+      {"GL/glcorearb.h", {"gpu"}},
+      {"tiny_gltf.h", {"mesh"}},
+      {"OpenImageIO/", {"image"}},
+      {"Eigen/", {"lpt", "report"}},
   };
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(SWARD_SOURCE_DIR) / "core")) {
     if (!isSource(entry.path())) continue;

@@ -35,7 +35,7 @@ TEST(Lights, FibonacciIsEvenOverTheHemisphere) {
     sum += light;
     squares += light.x * light.x;
   }
-  EXPECT_NEAR(sum.z / 1000.0, 0.5, 1e-3);        // mean of z over a hemisphere
+  EXPECT_NEAR(sum.z / 1000.0, 0.5, 1e-3);  // mean of z over a hemisphere
   EXPECT_NEAR(sum.x / 1000.0, 0.0, 5e-3);
   EXPECT_NEAR(squares / 1000.0, 1.0 / 3.0, 5e-3);
 }
@@ -117,7 +117,8 @@ TEST(Sky, ClearNoonHasPlausibleLevelsAndColours) {
   EXPECT_GT(noon.sunIrradiance().r, noon.sunIrradiance().b);
   // Toward evening the sun reddens and dims; below the horizon it is gone.
   const Daylight evening(directionFromAngles({270.0, 5.0}), {}, {});
-  EXPECT_GT(evening.sunIrradiance().r / evening.sunIrradiance().b, 2.0 * noon.sunIrradiance().r / noon.sunIrradiance().b);
+  EXPECT_GT(evening.sunIrradiance().r / evening.sunIrradiance().b,
+            2.0 * noon.sunIrradiance().r / noon.sunIrradiance().b);
   EXPECT_LT(evening.sunIrradiance().g, 0.5 * noon.sunIrradiance().g);
   EXPECT_EQ(Daylight(directionFromAngles({270.0, -1.0}), {}, {}).sunIrradiance().g, 0.0);
 }
@@ -125,7 +126,8 @@ TEST(Sky, ClearNoonHasPlausibleLevelsAndColours) {
 TEST(Sky, MapHoldsTheRadiance) {
   const Daylight daylight(directionFromAngles({40.0, 30.0}), {}, {});
   const image::Image map = daylight.skyMap(64, 32);
-  const glm::dvec3 expected = daylight.skyRadiance(directionFromAngles({360.0 * 10.5 / 64, 90.0 * (20.5 / 32) * (20.5 / 32)}));
+  const glm::dvec3 expected =
+      daylight.skyRadiance(directionFromAngles({360.0 * 10.5 / 64, 90.0 * (20.5 / 32) * (20.5 / 32)}));
   EXPECT_NEAR(map.at(10, 20, 1), expected.g, 1e-5 * expected.g);
 }
 

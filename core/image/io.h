@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace sward::image {
 
@@ -17,7 +18,8 @@ enum class Encoding { Srgb, Linear };
 inline constexpr int kMaxImageSide = 32768;
 
 /// Reads PNG, JPEG, EXR, HDR or TIFF into linear values; colour channels decode from `encoding` when the file is
-/// integer, alpha never does. Keeps the file's 1 to 4 channels (more are dropped).
+/// integer, alpha never does. Keeps the file's 1 to 4 channels (more are dropped). Premultiplied files (EXR) are
+/// divided by their alpha where it is not 0.
 Result<Image> readImage(const std::filesystem::path& path, Encoding encoding = Encoding::Srgb);
 /// The same from memory; `name` stands in messages, its extension does not matter.
 Result<Image> readImage(std::span<const std::byte> data, const std::string& name, Encoding encoding = Encoding::Srgb);
@@ -25,7 +27,10 @@ Result<Image> readImage(std::span<const std::byte> data, const std::string& name
 /// Writes display values in [0, 1] (already sRGB-encoded) as 8-bit PNG with an sRGB tag; 1, 3 or 4 channels.
 /// Written to a temporary and renamed.
 Result<void> writePng(const std::filesystem::path& path, const Image& encoded);
-/// Writes linear values as half-float EXR (ZIP), Rec. 709 primaries, channels Y, RGB or RGBA.
+/// The same PNG as bytes.
+Result<std::vector<std::byte>> encodePng(const Image& encoded);
+/// Writes linear values as half-float EXR (ZIP), Rec. 709 primaries, channels Y, RGB or RGBA; colour is multiplied by
+/// alpha on the way, as the format has it. Values beyond what half floats hold are clamped.
 Result<void> writeExr(const std::filesystem::path& path, const Image& linear);
 
 /// True when the extension (any case) is one that the writers above know: .png or .exr.

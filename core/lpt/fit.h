@@ -31,8 +31,8 @@ struct FitInput {
 
 enum class FitPath : std::uint8_t {
   Empty,      ///< no texel: all coefficients 0
-  Moments,    ///< normal equations from precomputed moments, Cholesky
-  Orthogonal  ///< rank-revealing orthogonal decomposition: no ridge, too few lights, or a failed Cholesky
+  Moments,    ///< normal equations from precomputed moments, by block elimination (PTM: one pseudo-inverse for all)
+  Orthogonal  ///< rank-revealing orthogonal decomposition: `paper`, too few lights, missing samples, a pivot too small
 };
 
 /// Coefficients of every column, with what is needed to judge them.
@@ -43,9 +43,15 @@ struct Fit {
   std::vector<float> coefficients;  ///< [column][channel][perColumn]; the ten are b of lptBasis (u, not v)
   std::vector<std::uint8_t>
       rank;  ///< numerical rank of the data alone (before the ridge), per column; PTM: the least of its layers'
-  std::vector<float> condition;  ///< 2-norm condition of the system solved, per column; 0 where empty
-  std::vector<float> weight;     ///< summed weight of the column's texels; 0 where empty
-  std::vector<FitPath> path;
+  /// 2-norm condition of the least-squares system solved (weighted rows with the ridge's; of its numerical rank where
+  /// that is deficient), per column; 0 where empty. Moments: estimated by power and inverse iteration, never above the
+  /// true one and in practice within a tenth below it. Orthogonal: from singular values. PTM: the largest of its
+  /// layers'.
+  std::vector<float> condition;
+  std::vector<float> weight;  ///< summed weight of the column's texels; 0 where empty
+  std::vector<FitPath> path;  ///< PTM: Orthogonal when any of its layers is
+  /// PTM only: weight of each layer texel, [column][layer], 0 where there is none; empty for LPT.
+  std::vector<float> layerWeight;
 
   std::span<const float> column(int column, int channel) const {
     return std::span(coefficients)
@@ -57,16 +63,19 @@ struct Fit {
 };
 
 /// Weighted, centred, regularised least squares of science.md section 1 (LPT, equation 4; PTM per layer texel), or the
-/// paper's own (options.paper). Samples that are not finite are left out (their row has no weight); the result never
-/// holds a NaN. Empty columns get zero coefficients. Same bytes on any number of threads. Errors: no lights, spans
-/// whose lengths do not match.
+/// paper's own (options.paper): least squares of minimum norm in u. Weights are max(delta, 1/(2m)) alpha; delta alone
+/// for a paper's LPT. Texels without a positive, finite weight count as absent. A sample that is not finite leaves out
+/// its row (texel and light) in every channel; the result never holds a NaN. Columns without a row are empty: zero
+/// coefficients. Same bytes on any number of threads. Errors: no lights or one that is not finite, lengths or layers
+/// that do not match, ridges below 0; Error::cancelled().
 Result<Fit> fit(const FitInput& input, const FitOptions& options, const JobContext& job);
 
 /// Fills empty columns from their neighbours on a periodic or bordered width x height image (pull-push, weighted by the
-/// columns' weight), so that filtering across an outline is sound. For PTM, every layer texel for itself is filled from
-/// its column's weight.
+/// columns' weight), so that filtering across an outline is sound. For PTM every layer image is filled by itself,
+/// weighted by layerWeight; a layer without any texel stays zero.
 void fillEmpty(Fit& fit, int width, int height, bool periodic);
 
+/// Cache payload. load returns false on damaged data and leaves `fit` as it was.
 void save(base::ByteWriter& out, const Fit& fit);
 bool load(base::ByteReader& in, Fit& fit);
 

@@ -17,7 +17,8 @@ namespace sward::lpt {
 inline constexpr int kReflected = 0;
 inline constexpr int kTransmitted = 1;
 
-/// b' = scale (b + base) (equation 7) and its inverse; a constant coefficient has scale 0 and is read back as -base.
+/// b' = scale (b + base) (equation 7) is the stored integer, 0 to 255 or 65535; it is read back as b' / scale - base,
+/// in float. A constant coefficient has scale 0, is stored as 0 and read back as -base, exactly.
 struct CoefficientRange {
   float scale = 0.0f;
   float base = 0.0f;
@@ -65,7 +66,8 @@ struct LayerStackInput {
   std::vector<glm::vec2> sky;            ///< per texel
 };
 
-/// Ranges from the data (with options.clampQuantile cut off), rounding to nearest. Where coverage is 0, colour and sky
+/// Ranges from the data (with options.clampQuantile cut off; values that are not finite count for nothing), rounding to
+/// nearest. Throws ContractError when sizes do not match. Where coverage is 0, colour and sky
 /// are filled from covered neighbours of the same layer image (pull-push; across `periodic` borders), so that filtering
 /// does not darken outlines.
 LayerStack quantise(const LayerStackInput& input, const FitOptions& options, bool periodic, const JobContext& job);
@@ -82,9 +84,11 @@ struct Illumination {
 
 /// The CPU's relighting of one texel, the same as shaders/relight: radiance =
 /// (r max(f_r, 0) + t max(f_t, 0)) E_sun / pi + (r s_r + t s_t) L_sky, and straight coverage in alpha. A sun below the
-/// horizon gives no sun term.
+/// horizon (z < 0) gives no sun term. Arithmetic in float, in this order: f_c = A + u (B + u C) with u = layer /
+/// layers, A, B and C as atLight has them (PTM: A alone); colours decoded as (byte / 255)^2.
 glm::vec4 relitTexel(const LayerStack& stack, int image, int layer, int x, int y, const Illumination& light);
 
+/// Cache payload. load returns false on damaged data and leaves `stack` as it was.
 void save(base::ByteWriter& out, const LayerStack& stack);
 bool load(base::ByteReader& in, LayerStack& stack);
 

@@ -10,11 +10,17 @@ enum class Basis : std::uint8_t {
   Ptm   ///< six coefficients a layer texel: a biquadratic in (lx, ly)
 };
 
+/// What a fit minimises (LPT, without `paper`), with W = sum_i w_i over a column's texels, K lights, and f written in
+/// v = u - ubar, ubar the w-weighted mean of u:
+///   (1 / (W K)) sum_i w_i sum_k (f(l_k, v_i) - sample_ik)^2
+///     + layerRidge (b2^2 + b4^2 + b5^2 + b8^2) + lightRidge (b0^2 + b1^2 + b3^2 + b6^2 + b7^2)
+/// A ridge is so relative to the summed weight of all rows, whatever the number of lights and layers, and a column's
+/// result does not change when all its weights are scaled. Rows left out (a sample that is not finite) leave W K too.
 struct FitOptions {
   Basis basis = Basis::Lpt;
   bool paper = false;         ///< no ridge, weights delta alone, not centred: the paper's own fit, for comparison
-  double layerRidge = 0.02;   ///< on the coefficients that contain v, relative to the summed weight
-  double lightRidge = 0.002;  ///< on those of the light alone; the constant is free
+  double layerRidge = 0.02;   ///< >= 0, on the coefficients that contain v, relative to the summed weight of the rows
+  double lightRidge = 0.002;  ///< >= 0, on those of the light alone; the constant is free
   int bits = 8;               ///< of a quantised coefficient: 8 or 16
   double clampQuantile =
       0.0;  ///< [0, 0.5): share of the coefficients cut off at each end of the range before quantising

@@ -1,0 +1,253 @@
+#include "project/limits.h"
+#include "project/range_check.h"
+
+#include "base/file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+namespace sward::project {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Collects what is wrong; the rules below add to it.
+class Problems {
+ public:
+  void error(std::string where, std::string what, std::string remedy) {
+    m_list.push_back({true, std::move(where), std::move(what), std::move(remedy)});
+  }
+  void warning(std::string where, std::string what, std::string remedy) {
+    m_list.push_back({false, std::move(where), std::move(what), std::move(remedy)});
+  }
+  std::vector<Problem>& list() { return m_list; }
+
+ private:
+  std::vector<Problem> m_list;
+};
+
+std::string number(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+void checkAsset(const Project& project, const std::string& where, const std::string& asset, Problems& out) {
+  const fs::path path = project.resolve(asset);
+  std::error_code code;
+  if (fs::is_regular_file(path, code)) return;
+  const std::string what = fs::exists(path, code) ? "\"" + path.string() + "\" is not a file"
+                                                  : "the file \"" + path.string() + "\" does not exist";
+  out.error(where, what, "Paths start at the project's folder; correct it or put the file there.");
+}
+
+std::string lowerExtension(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+void checkGltf(const Project& project, const Plant& plant, const std::string& where, Problems& out) {
+  const std::string path = where + ".gltf.path";
+  if (plant.gltf.path.empty()) {
+    return out.error(path, "the plant names no glTF file", "Give a .glb or .gltf file, relative to the project.");
+  }
+  const std::string extension = lowerExtension(plant.gltf.path);
+  if (extension != ".glb" && extension != ".gltf") {
+    return out.error(path, "\"" + plant.gltf.path + "\" is not a glTF file", "Give a .glb or .gltf file.");
+  }
+  checkAsset(project, path, plant.gltf.path, out);
+}
+
+void checkPatch(const Project& project, Problems& out) {
+  const Patch& patch = project.patch;
+  double shares = 0.0;
+  for (const Plant& plant : patch.plants) shares += plant.share;
+  if (!patch.plants.empty() && !(shares > 0.0)) {
+    out.error("patch.plants", "all shares are 0", "Give at least one plant a share above 0.");
+  }
+  double plants = 0.0;
+  for (std::size_t i = 0; i < patch.plants.size(); ++i) {
+    const Plant& plant = patch.plants[i];
+    const std::string where = "patch.plants[" + std::to_string(i) + "]";
+    if (plant.kind == PlantKind::Gltf) checkGltf(project, plant, where, out);
+    if (shares > 0.0) plants += plant.densityPerM2 * patch.sideM * patch.sideM * plant.share / shares;
+  }
+  if (plants > kMaxPlants) {
+    out.error("patch", "densities times area come to " + number(plants) + " plants",
+              "At most " + number(kMaxPlants) + " are possible; make the patch smaller or the densities lower.");
+  }
+  if (patch.plants.empty()) {
+    out.warning("patch.plants", "the patch has no plants", "Add some; bare soil is drawn otherwise.");
+  }
+  if (!patch.soil.texture.empty()) checkAsset(project, "patch.soil.texture", patch.soil.texture, out);
+}
+
+void checkLights(const Project& project, Problems& out) {
+  const scene::LightOptions& lights = project.lights;
+  const bool list = lights.pattern == scene::LightPattern::List;
+  const std::size_t count = list ? lights.directions.size() : static_cast<std::size_t>(std::max(lights.count, 0));
+  if (list && count == 0) {
+    return out.error("lights.directions", "there are no lights",
+                     "List at least one direction, or set lights.pattern to fibonacci.");
+  }
+  for (std::size_t i = 0; list && i < count; ++i) {
+    if (lights.directions[i].elevationDeg < 0.0) {
+      out.error("lights.directions[" + std::to_string(i) + "].elevationDeg",
+                "the light stands at " + number(lights.directions[i].elevationDeg) + " degrees, under the horizon",
+                "Give 0 to 90 degrees.");
+    }
+  }
+  if (count > 0 && count < static_cast<std::size_t>(kFewLights)) {
+    out.warning(list ? "lights.directions" : "lights.count", "there are only " + std::to_string(count) + " lights",
+                "Use " + std::to_string(kFewLights) + " or more (15 is usual): relighting is a guess otherwise.");
+  }
+}
+
+void checkSampling(const trace::SamplingOptions& sampling, Problems& out) {
+  if (sampling.blades > 0 && sampling.sliceResolution % sampling.blades != 0) {
+    out.error("sampling.sliceResolution",
+              std::to_string(sampling.sliceResolution) + " texels cannot be divided among " +
+                  std::to_string(sampling.blades) + " blades",
+              "Make it a multiple of sampling.blades.");
+  }
+  const auto rays = [](int width, int height, int layers, int subSamples) {
+    return static_cast<double>(width) * height * layers * subSamples;
+  };
+  const double slices =
+      rays(sampling.sliceResolution, sampling.sliceResolution, sampling.slices, sampling.sliceSubSamples);
+  const double blades = rays(sampling.bladeWidth, sampling.bladeHeight, sampling.blades, sampling.bladeSubSamples);
+  if (slices > kMaxHitRays) {
+    out.error("sampling.sliceSubSamples", "the slices come to " + number(slices) + " rays",
+              "At most " + number(kMaxHitRays) + " are possible; lower the resolution, the layers or the sub-samples.");
+  }
+  if (blades > kMaxHitRays) {
+    out.error("sampling.bladeSubSamples", "the blades come to " + number(blades) + " rays",
+              "At most " + number(kMaxHitRays) + " are possible; lower the resolution, the layers or the sub-samples.");
+  }
+}
+
+/// How tiles are cut: sizes that fit the patch and line up with the blades' slabs.
+void checkTileSizes(const Project& project, Problems& out) {
+  const tiles::TileOptions& t = project.tiles;
+  const trace::SamplingOptions& s = project.sampling;
+  if (t.resolution % 2 != 0) {
+    out.error("tiles.resolution", std::to_string(t.resolution) + " texels is odd", "Give an even number.");
+  }
+  const int pitch = s.blades > 0 && s.sliceResolution % s.blades == 0 ? s.sliceResolution / s.blades : 0;
+  if (pitch > 0 && t.resolution % 2 == 0 && (t.resolution / 2) % pitch != 0) {
+    out.error("tiles.resolution",
+              "half of it, " + std::to_string(t.resolution / 2) + " texels, is no multiple of a blade slab's " +
+                  std::to_string(pitch) + " (sampling.sliceResolution / sampling.blades)",
+              "Change one of the three, such as " + std::to_string(2 * pitch) + " for tiles.resolution.");
+  }
+  if (t.overlap >= t.resolution / 2) {
+    out.error("tiles.overlap", std::to_string(t.overlap) + " texels are half a tile or more",
+              "Give less than " + std::to_string(t.resolution / 2) + ".");
+  }
+  if (t.resolution + 2 * t.overlap > s.sliceResolution) {
+    out.error("tiles.resolution",
+              "a diamond with its overlap, " + std::to_string(t.resolution + 2 * t.overlap) +
+                  " texels, is larger than the patch of " + std::to_string(s.sliceResolution),
+              "Make tiles.resolution or tiles.overlap smaller, or sampling.sliceResolution larger.");
+  }
+  if (t.apron > 0 && (t.apron & (t.apron - 1)) != 0) {
+    out.error("tiles.apron", std::to_string(t.apron) + " texels is no power of two", "Give 1, 2, 4, 8, 16 or 32.");
+  }
+  if (t.apron > t.resolution / 2) {
+    out.error("tiles.apron", std::to_string(t.apron) + " texels are more than half a tile",
+              "Give at most " + std::to_string(t.resolution / 2) + ".");
+  }
+}
+
+void checkTileCounts(const Project& project, Problems& out) {
+  const tiles::TileOptions& t = project.tiles;
+  const int pairs = t.coloursPerAxis * t.coloursPerAxis;
+  const int count = pairs * t.tilesPerPair;
+  if (t.tilesPerPair > pairs) {
+    out.error("tiles.tilesPerPair",
+              "only " + std::to_string(pairs) + " different tiles exist for a pair of " +
+                  std::to_string(t.coloursPerAxis) + " colours an axis",
+              "Give at most " + std::to_string(pairs) + ".");
+  } else if (count > kMaxTiles) {
+    out.error("tiles.tilesPerPair", std::to_string(count) + " tiles do not fit in one byte a cell",
+              "Keep coloursPerAxis squared times tilesPerPair at 256 or less.");
+  }
+  if (t.map == tiles::MapMethod::Hashed && t.tilesPerPair != pairs) {
+    out.error("tiles.map", "a hashed map needs the complete set of tiles",
+              "Set tiles.tilesPerPair to " + std::to_string(pairs) + ", or tiles.map to scan_order.");
+  }
+  const double side = t.resolution + 2.0 * t.apron;
+  const double texels = count * side * side * project.sampling.slices;
+  if (texels > kMaxTileTexels) {
+    out.error("tiles", "the tiles come to " + number(texels) + " layer texels",
+              "At most " + number(kMaxTileTexels) + " are possible; use fewer or smaller tiles, or fewer slices.");
+  }
+}
+
+void checkViews(const Project& project, Problems& out) {
+  if (project.views.empty()) {
+    out.warning("views", "the project has no views", "Add one; a default view at eye height is used otherwise.");
+  }
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < project.views.size(); ++i) {
+    const scene::View& view = project.views[i];
+    const std::string where = "views[" + std::to_string(i) + "]";
+    if (view.name.empty()) out.error(where + ".name", "the view has no name", "Name it.");
+    if (!names.insert(view.name).second) {
+      out.error(where + ".name", "another view is called \"" + view.name + "\" too", "Give each view its own name.");
+    }
+    const glm::dvec3 along = view.target - view.position;
+    if (glm::dot(along, along) < 1e-12) {
+      out.error(where + ".target", "the view looks at its own position", "Move target or position.");
+    }
+  }
+}
+
+void checkRest(const Project& project, Problems& out) {
+  if (project.fit.bits != 8 && project.fit.bits != 16) {
+    out.error("fit.bits", std::to_string(project.fit.bits) + " bits cannot be stored", "Give 8 or 16.");
+  }
+  const std::int64_t pixels = std::int64_t{project.output.width} * project.output.height;
+  if (pixels > kMaxPixels) {
+    out.error("output", std::to_string(pixels) + " pixels are more than " + std::to_string(kMaxPixels),
+              "Make the picture smaller.");
+  }
+  const scene::SunMoment& m = project.sun.moment;
+  if (project.sun.byMoment && m.month >= 1 && m.month <= 12) {
+    constexpr std::array kDays{31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+    const bool leap = (m.year % 4 == 0 && m.year % 100 != 0) || m.year % 400 == 0;
+    const int days = kDays[static_cast<std::size_t>(m.month - 1)] + (m.month == 2 && leap ? 1 : 0);
+    if (m.day > days && m.day <= 31) {
+      out.error("sun.moment.day", "month " + std::to_string(m.month) + " has no day " + std::to_string(m.day),
+                "Give 1 to " + std::to_string(days) + ".");
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Problem> validate(const Project& project) {
+  Problems problems;
+  RangeCheck ranges("", problems.list());
+  describe(ranges, project);
+  checkPatch(project, problems);
+  checkLights(project, problems);
+  checkSampling(project.sampling, problems);
+  checkTileSizes(project, problems);
+  checkTileCounts(project, problems);
+  checkViews(project, problems);
+  checkRest(project, problems);
+  return std::move(problems.list());
+}
+
+Result<void> requireValid(const Project& project) {
+  std::vector<Problem> problems = validate(project);
+  const auto fatal = std::find_if(problems.begin(), problems.end(), [](const Problem& p) { return p.fatal; });
+  if (fatal == problems.end()) return {};
+  return Error::badInput(fatal->what, fatal->where, fatal->remedy);
+}
+
+}  // namespace sward::project

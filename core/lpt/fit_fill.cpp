@@ -1,0 +1,49 @@
+#include "lpt/fit.h"
+
+#include "base/check.h"
+#include "lpt/polynomial.h"
+#include "lpt/pull_push.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace sward::lpt {
+namespace {
+
+/// Fills the coefficients of one layer image; they lie in the fit's own order, channels apart.
+void fillPtmLayer(Fit& fit, std::size_t layer, int width, int height, bool periodic) {
+  const auto channels = static_cast<std::size_t>(fit.channels);
+  const auto layers = static_cast<std::size_t>(fit.layers);
+  const auto columns = static_cast<std::size_t>(fit.columns);
+  std::vector<float> values(columns * channels * 6), weight(columns);
+  const auto forEach = [&](const auto& body) {
+    for (std::size_t i = 0; i < columns; ++i) {
+      for (std::size_t c = 0; c < channels; ++c) {
+        for (std::size_t j = 0; j < 6; ++j) {
+          body(values[(i * channels + c) * 6 + j], fit.coefficients[((i * channels + c) * layers + layer) * 6 + j]);
+        }
+      }
+    }
+  };
+  for (std::size_t i = 0; i < columns; ++i) weight[i] = fit.layerWeight[i * layers + layer];
+  forEach([](float& mine, float& theirs) { mine = theirs; });
+  detail::pullPush(values, weight, width, height, fit.channels * kPtmCoefficients, periodic);
+  forEach([](float& mine, float& theirs) { theirs = mine; });
+}
+
+}  // namespace
+
+void fillEmpty(Fit& fit, int width, int height, bool periodic) {
+  SWARD_CHECK_EQ(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+                 static_cast<std::size_t>(fit.columns));
+  if (fit.columns == 0) return;
+  if (fit.basis == Basis::Lpt) {
+    detail::pullPush(fit.coefficients, fit.weight, width, height, fit.channels * fit.perColumn, periodic);
+    return;
+  }
+  for (std::size_t layer = 0; layer < static_cast<std::size_t>(fit.layers); ++layer) {
+    fillPtmLayer(fit, layer, width, height, periodic);
+  }
+}
+
+}  // namespace sward::lpt

@@ -49,6 +49,7 @@ void growHead(Model& model, const CloverShape& shape, base::Random& random, cons
   const glm::dvec3 withered = colour * glm::dvec3(0.62, 0.45, 0.32);
   const double age = random.uniform(0.0, 0.5);
   const glm::dvec3 other = glm::cross(top.tangent, top.side);
+  const glm::dvec3 middle = top.centre + top.tangent * (0.55 * radius);
   constexpr int kFlorets = 44;
   for (int i = 0; i < kFlorets; ++i) {
     // Spiral points over the ball (Fibonacci), without its lowest tenth where the stem enters.
@@ -57,14 +58,19 @@ void growHead(Model& model, const CloverShape& shape, base::Random& random, cons
     const double azimuth = kTau * 0.381966 * i;
     const glm::dvec3 outward = ring * (std::cos(azimuth) * top.side + std::sin(azimuth) * other) + z * top.tangent;
     const glm::dvec3 direction = glm::normalize(outward + 0.35 * top.tangent);
-    const glm::dvec3 base = top.centre + top.tangent * (0.55 * radius) + 0.32 * radius * outward;
+    const glm::dvec3 base = middle + 0.32 * radius * outward;
     const double dried = std::clamp((age - 0.5 * (z + 1.0)) * 4.0, 0.0, 1.0);
     const glm::dvec3 tip = glm::mix(colour * random.uniform(0.9, 1.12), withered, dried);
     const glm::dvec3 foot = glm::mix(tip * 0.72, shape.leafColour, 0.25);
     const glm::dvec3 face =
         glm::normalize(top.tangent - direction * glm::dot(direction, top.tangent) + 1e-6 * top.side);
+    const std::size_t first = model.positions.size();
     appendScale(model, base, direction * (0.72 * radius * random.uniform(0.9, 1.1)), face, 0.20 * radius, foot, tip,
                 kHeadMaterial);
+    // The ball shades as a ball, not as so many facets.
+    for (std::size_t v = first; v < model.positions.size(); ++v) {
+      model.normals[v] = glm::normalize(model.positions[v] - glm::vec3(middle));
+    }
   }
 }
 

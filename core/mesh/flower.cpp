@@ -55,11 +55,16 @@ void growLeaf(Model& model, const FlowerShape& shape, base::Random& random, cons
 
 /// Stem with its leaves; returns where the head sits.
 HeadFrame growStem(Model& model, const FlowerShape& shape, base::Random& random, const Axis& axis) {
-  const std::vector<AxisRow> rows = axisRows(axis);
+  std::vector<AxisRow> rows = axisRows(axis);
   const glm::dvec3 colour = variedColour(random, shape.leafColour, shape.colourVariation);
   const double radius = 0.5 * shape.stemWidthM;
   const double cup = std::max(0.75 * shape.centreRadiusM, radius);
-  appendTube(model, {rows, [&](double s) { return s < 0.999 ? radius * (1.0 - 0.35 * s) : cup; }, 4,
+  // The cup under the head opens over its own width only.
+  AxisRow neck = rows.back();
+  neck.centre -= neck.tangent * std::min(1.1 * cup, 0.05 * axis.length);
+  neck.s = 0.99;
+  rows.insert(rows.end() - 1, neck);
+  appendTube(model, {rows, [&](double s) { return s < 0.995 ? radius * (1.0 - 0.35 * s) : cup; }, 4,
                      [&](double s, double) { return colour * (0.75 + 0.25 * s); }, kGreenMaterial});
   double azimuth = kTau * random.uniform();
   for (int i = 0; i < shape.leaves; ++i) {

@@ -12,9 +12,9 @@
 /// Parts of fit() that its files share; not for other folders.
 namespace sward::lpt::detail {
 
-/// Singular values of the weighted rows below this share of the largest count as zero: rows are float samples'
-/// functions, so that anything smaller is rounding.
-inline constexpr double kRankTolerance = 1e-7;
+/// Singular values of the weighted rows below this share of the largest count as zero: what they stand for would be the
+/// rounding of float samples (6e-8), magnified a million times.
+inline constexpr double kRankTolerance = 1e-6;
 /// Normal equations are left for the orthogonal path when a pivot falls under this share of the largest eigenvalue:
 /// above it, rounding costs the solution less than the 6e-8 of a float.
 inline constexpr double kMinPivot = 1e-8;

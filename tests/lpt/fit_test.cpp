@@ -70,7 +70,7 @@ struct Oracle {
   }
   int rank() const {
     const Eigen::VectorXd s = rows.cast<double>().jacobiSvd().singularValues();
-    return static_cast<int>((s.array() > 1e-7 * s.maxCoeff()).count());
+    return static_cast<int>((s.array() > 1e-6 * s.maxCoeff()).count());
   }
 
  private:
@@ -243,7 +243,7 @@ TEST(Fit, PaperHasMinimumNormAndLeastResidual) {
       }
     }
     Eigen::CompleteOrthogonalDecomposition<LongMatrix> cod;
-    cod.setThreshold(1e-7L);
+    cod.setThreshold(1e-6L);
     const LongVector b = cod.compute(rows).solve(right);
     std::array<float, 10> expected;
     for (Eigen::Index j = 0; j < 10; ++j) expected[static_cast<std::size_t>(j)] = static_cast<float>(b(j));

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct BakeReport {
   std::vector<NodeReport> nodes;
   std::uint64_t raysNearest = 0, raysOcclusion = 0;
   double seconds = 0.0;
+  std::vector<std::string> warnings;  ///< what went wrong without ending the bake, such as a full cache disk
 };
 
 /// Walks the bake graph (design.md) from the ground's end: a node whose result is cached asks nothing of its inputs.

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ class DiskCache {
   void trim();
   std::filesystem::path m_folder;
   std::uint64_t m_limitBytes = 0;
+  std::uint64_t m_untrimmedBytes = 0;  ///< written since the folder was last measured
 };
 
 }  // namespace sward::bake

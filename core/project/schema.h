@@ -215,7 +215,7 @@ void describe(A& a, typename A::template Ref<tiles::TileOptions> v) {
   a.field("resolution", v.resolution, range(8, 512, "texels"));
   a.field("coloursPerAxis", v.coloursPerAxis, range(1, 4, "colours"));
   a.field("tilesPerPair", v.tilesPerPair, range(1, 16, "tiles"));
-  a.field("overlap", v.overlap, range(1, 256, "texels"));
+  a.field("overlap", v.overlap, range(0, 128, "texels"));
   a.field("apron", v.apron, range(1, 64, "texels"));
   a.field("seam", v.seam);
   a.field("domain", v.domain);

@@ -143,9 +143,9 @@ void checkTileSizes(const Project& project, Problems& out) {
                   std::to_string(pitch) + " (sampling.sliceResolution / sampling.blades)",
               "Change one of the three, such as " + std::to_string(2 * pitch) + " for tiles.resolution.");
   }
-  if (t.overlap >= t.resolution / 2) {
-    out.error("tiles.overlap", std::to_string(t.overlap) + " texels are half a tile or more",
-              "Give less than " + std::to_string(t.resolution / 2) + ".");
+  if (t.overlap > t.resolution / 4) {
+    out.error("tiles.overlap", std::to_string(t.overlap) + " texels are more than a quarter of a tile",
+              "Give at most " + std::to_string(t.resolution / 4) + ".");
   }
   if (t.resolution + 2 * t.overlap > s.sliceResolution) {
     out.error("tiles.resolution",
@@ -164,6 +164,7 @@ void checkTileSizes(const Project& project, Problems& out) {
 
 void checkTileCounts(const Project& project, Problems& out) {
   const tiles::TileOptions& t = project.tiles;
+  const trace::SamplingOptions& s = project.sampling;
   const int pairs = t.coloursPerAxis * t.coloursPerAxis;
   const int count = pairs * t.tilesPerPair;
   if (t.tilesPerPair > pairs) {
@@ -171,7 +172,14 @@ void checkTileCounts(const Project& project, Problems& out) {
               "only " + std::to_string(pairs) + " different tiles exist for a pair of " +
                   std::to_string(t.coloursPerAxis) + " colours an axis",
               "Give at most " + std::to_string(pairs) + ".");
-  } else if (count > kMaxTiles) {
+  }
+  if (s.blades * s.blades < 2 * t.coloursPerAxis) {
+    out.error("tiles.coloursPerAxis",
+              "the patch has " + std::to_string(s.blades * s.blades) + " places for " +
+                  std::to_string(2 * t.coloursPerAxis) + " diamonds",
+              "Use fewer colours, or more of sampling.blades (places are their square).");
+  }
+  if (count > kMaxTiles) {
     out.error("tiles.tilesPerPair", std::to_string(count) + " tiles do not fit in one byte a cell",
               "Keep coloursPerAxis squared times tilesPerPair at 256 or less.");
   }

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "base/hash.h"
+#include "base/result.h"
+#include "project/project.h"
+#include "trace/layers.h"
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace sward::bake {
+
+/// Keys of what is baked of one layer set.
+struct SetKeys {
+  base::Hash128 hits;
+  std::vector<base::Hash128> luminance;  ///< one a light, by its direction
+  base::Hash128 visibility;
+  base::Hash128 surface;
+  base::Hash128 fit;
+  base::Hash128 stack;
+};
+
+/// Keys of a whole project's ground. Each is the hash of its kind, that kind's version, the values it reads and its
+/// inputs' keys, so they are known before anything is baked. Assets enter by their bytes.
+struct GroundKeys {
+  base::Hash128 patch;  ///< geometry alone
+  std::array<SetKeys, trace::kAllLayerSets.size()> sets;
+  base::Hash128 seamFit;  ///< ten coefficients a column, whatever the basis drawn
+  base::Hash128 tiles;
+  base::Hash128 ground;
+
+  const SetKeys& of(trace::LayerSet set) const { return sets[static_cast<std::size_t>(set)]; }
+};
+
+/// The fit options of one layer set: the soil is a single layer and always PTM.
+lpt::FitOptions fitOptionsOf(const project::Project& project, trace::LayerSet set);
+
+/// Reads asset files (errors: one is missing or unreadable), bakes nothing.
+Result<GroundKeys> groundKeys(const project::Project& project, std::span<const glm::dvec3> lights);
+
+}  // namespace sward::bake

@@ -1,0 +1,361 @@
+#include "bake/session.h"
+
+#include "bake/plants.h"
+#include "bake/soil.h"
+#include "base/check.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace sward::bake {
+namespace {
+
+using trace::LayerSet;
+
+/// Bytes in memory, about; what is not listed counts as its payload.
+std::uint64_t bytesOf(const trace::LayerSurface& surface) {
+  return (surface.reflectance.size() + surface.transmittance.size()) * sizeof(glm::vec3);
+}
+std::uint64_t bytesOf(const lpt::LayerStack& stack) {
+  return stack.totalBytes();
+}
+std::uint64_t bytesOf(const scene::Patch& patch) {
+  std::uint64_t bytes = patch.instances.size() * sizeof(scene::Instance);
+  for (const auto& model : patch.models) bytes += model->positions.size() * 60 + model->triangles.size() * 16;
+  return bytes;
+}
+
+std::string lightName(LayerSet set, std::size_t light) {
+  return std::string(trace::layerSetName(set)) + ", light " + std::to_string(light + 1);
+}
+
+}  // namespace
+
+Session::Session(const project::Project& project, std::vector<glm::dvec3> lights, GroundKeys keys,
+                 const JobContext& job, MemoryCache& memory, std::optional<DiskCache>& disk)
+    : m_project(project),
+      m_lights(std::move(lights)),
+      m_keys(std::move(keys)),
+      m_job(job),
+      m_memory(memory),
+      m_disk(disk) {
+  plan();
+}
+
+void Session::planNode(const std::string& kind, const std::string& what, double weight) {
+  NodeReport node;
+  node.kind = kind;
+  node.what = what;
+  node.state = NodeReport::State::Skipped;
+  m_report.nodes.push_back(std::move(node));
+  m_progressEnd.push_back((m_progressEnd.empty() ? 0.0 : m_progressEnd.back()) + weight);
+}
+
+void Session::plan() {
+  planNode("patch", "", 0.1);
+  const auto planSet = [&](LayerSet set) {
+    const trace::LayerShape shape = trace::layerShape(set, m_project.sampling);
+    const bool flat = set == LayerSet::Slices || set == LayerSet::Ground;
+    const int subSamples = flat ? m_project.sampling.sliceSubSamples : m_project.sampling.bladeSubSamples;
+    // Millions of rays; about a quarter of the layer texels are covered in grass, all of the ground is.
+    const double rays = 1e-6 * shape.columns() * shape.layers * subSamples;
+    const double covered = set == LayerSet::Ground ? rays : 0.25 * rays;
+    const std::string name = trace::layerSetName(set);
+    planNode("hits", name, rays);
+    planNode("visibility", name, covered * m_project.sampling.visibilityDirections);
+    for (std::size_t light = 0; light < m_lights.size(); ++light) planNode("luminance", lightName(set, light), covered);
+    planNode("fit", name, 0.2 * rays);
+    if (set == LayerSet::Slices && m_project.fit.basis != lpt::Basis::Lpt) planNode("fit", "seams", 0.2 * rays);
+    planNode("surface", name, 0.2 * covered);
+    if (set == LayerSet::Slices) planNode("tiles", "", 1.0);
+    planNode("stack", name, 0.2 * rays);
+  };
+  for (const LayerSet set : trace::kAllLayerSets) planSet(set);
+  planNode("ground", "", 0.5);
+}
+
+std::size_t Session::indexOf(const std::string& kind, const std::string& what) const {
+  const auto& nodes = m_report.nodes;
+  const auto found = std::find_if(nodes.begin(), nodes.end(),
+                                  [&](const NodeReport& node) { return node.kind == kind && node.what == what; });
+  SWARD_CHECK(found != nodes.end());
+  return static_cast<std::size_t>(found - nodes.begin());
+}
+
+JobContext Session::jobOf(std::size_t node) const {
+  JobContext job{m_job.stop, {}, m_job.threads};
+  if (!m_job.onProgress) return job;
+  const double total = m_progressEnd.back();
+  const double begin = node == 0 ? 0.0 : m_progressEnd[node - 1];
+  const double width = m_progressEnd[node] - begin;
+  const NodeReport& report = m_report.nodes[node];
+  const std::string stage = report.what.empty() ? report.kind : report.kind + ": " + report.what;
+  job.onProgress = [this, total, begin, width, stage](const std::string&, double fraction) {
+    m_job.onProgress(stage, (begin + width * std::clamp(fraction, 0.0, 1.0)) / total);
+  };
+  return job;
+}
+
+template <typename T>
+std::shared_ptr<const T> Session::findOnDisk(const std::string& kind, const base::Hash128& key, Keep keep,
+                                             NodeReport& report) {
+  if constexpr (requires(base::ByteReader & in, T & value) { load(in, value); }) {
+    if (!m_disk) return nullptr;
+    const auto payload = m_disk->get(kind, key);
+    auto value = payload ? fromPayload<T>(*payload) : std::nullopt;
+    if (!value) return nullptr;
+    report.state = NodeReport::State::FromDisk;
+    report.bytes = payload->size();
+    auto shared = std::make_shared<const T>(std::move(*value));
+    m_held[key] = shared;
+    if (keep == Keep::MemoryAndDisk) m_memory.put(key, shared, report.bytes);
+    return shared;
+  }
+  return nullptr;
+}
+
+template <typename T>
+std::shared_ptr<const T> Session::find(const std::string& kind, const base::Hash128& key, Keep keep,
+                                       NodeReport& report) {
+  if (auto held = m_held[key].lock()) return std::static_pointer_cast<const T>(held);
+  if (keep == Keep::Memory || keep == Keep::MemoryAndDisk) {
+    if (auto value = m_memory.get<T>(key)) {
+      if (report.state == NodeReport::State::Skipped) report.state = NodeReport::State::FromMemory;
+      m_held[key] = value;
+      return value;
+    }
+  }
+  if (keep == Keep::Disk || keep == Keep::MemoryAndDisk) return findOnDisk<T>(kind, key, keep, report);
+  return nullptr;
+}
+
+template <typename T>
+void Session::remember(const std::string& kind, const base::Hash128& key, Keep keep, const Shared<T>& value,
+                       NodeReport& report) {
+  m_held[key] = value;
+  if constexpr (requires(base::ByteWriter & out) { save(out, *value); }) {
+    if (keep == Keep::Disk || keep == Keep::MemoryAndDisk) {
+      const std::vector<std::byte> payload = payloadOf(*value);
+      report.bytes = payload.size();
+      if (m_disk) {
+        if (const auto stored = m_disk->put(kind, key, payload); !stored.ok()) {
+          // The result is still good; only the next run has to make it again. One message is enough.
+          if (!std::exchange(m_storeFailed, true)) m_report.warnings.push_back(stored.error().text());
+        }
+      }
+    }
+  }
+  if constexpr (requires { bytesOf(*value); }) report.bytes = bytesOf(*value);
+  if (keep == Keep::Memory || keep == Keep::MemoryAndDisk) m_memory.put(key, value, report.bytes);
+}
+
+template <typename T, typename Make>
+Result<std::shared_ptr<const T>> Session::node(const std::string& kind, const std::string& what,
+                                               const base::Hash128& key, Keep keep, const Make& make) {
+  if (m_job.cancelled()) return Error::cancelled();
+  const std::size_t index = indexOf(kind, what);
+  const auto start = Clock::now();
+  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  if (auto found = find<T>(kind, key, keep, m_report.nodes[index])) {
+    m_report.nodes[index].seconds += elapsed();
+    m_childSeconds += elapsed();
+    return found;
+  }
+  const double outerChildren = std::exchange(m_childSeconds, 0.0);
+  Result<T> made = make(jobOf(index));
+  if (!made.ok()) return std::move(made).error();
+  // Loops that were cancelled leave ranges out without saying so: such a result must never be kept.
+  if (m_job.cancelled()) return Error::cancelled();
+  NodeReport& report = m_report.nodes[index];
+  report.state = NodeReport::State::Baked;
+  auto value = std::make_shared<const T>(std::move(made).value());
+  remember<T>(kind, key, keep, value, report);
+  const double seconds = elapsed();
+  report.seconds += seconds - m_childSeconds;
+  m_childSeconds = outerChildren + seconds;
+  return value;
+}
+
+Result<std::shared_ptr<const scene::Patch>> Session::patch() {
+  // Colours are part of the models: a patch is the same only when both keys are.
+  base::Hasher key;
+  key.add("instances").add(m_keys.patch).add(m_keys.of(LayerSet::Slices).surface);
+  return node<scene::Patch>("patch", "", key.finish(), Keep::Memory, [&](const JobContext&) -> Result<scene::Patch> {
+    SWARD_ASSIGN(scene::Patch grown, growPatch(m_project));
+    for (const auto& model : grown.models) {
+      for (const std::string& warning : model->warnings) m_report.warnings.push_back(warning);
+    }
+    return grown;
+  });
+}
+
+Result<const trace::PatchScene*> Session::scene() {
+  if (!m_scene) {
+    SWARD_ASSIGN(auto grown, patch());
+    SWARD_ASSIGN(m_scene, trace::PatchScene::create(std::move(grown)));
+  }
+  return m_scene.get();
+}
+
+Result<std::shared_ptr<const trace::LayerHits>> Session::hits(LayerSet set) {
+  return node<trace::LayerHits>("hits", trace::layerSetName(set), m_keys.of(set).hits, Keep::Disk,
+                                [&](const JobContext& job) -> Result<trace::LayerHits> {
+                                  SWARD_ASSIGN(const trace::PatchScene* traced, scene());
+                                  return trace::sampleHits(*traced, set, m_project.sampling, job);
+                                });
+}
+
+Result<std::shared_ptr<const trace::LayerSurface>> Session::surface(LayerSet set) {
+  return node<trace::LayerSurface>("surface", trace::layerSetName(set), m_keys.of(set).surface, Keep::WhileHeld,
+                                   [&](const JobContext& job) -> Result<trace::LayerSurface> {
+                                     SWARD_ASSIGN(const auto found, hits(set));
+                                     SWARD_ASSIGN(const auto grown, patch());
+                                     std::vector<glm::vec3> soil;
+                                     if (set == LayerSet::Ground) {
+                                       SWARD_ASSIGN(soil, soilColours(m_project, found->shape.width));
+                                     }
+                                     return trace::shadeSurface(*found, *grown, soil, job);
+                                   });
+}
+
+Result<std::shared_ptr<const trace::LayerVisibility>> Session::visibility(LayerSet set) {
+  return node<trace::LayerVisibility>("visibility", trace::layerSetName(set), m_keys.of(set).visibility, Keep::Disk,
+                                      [&](const JobContext& job) -> Result<trace::LayerVisibility> {
+                                        SWARD_ASSIGN(const auto found, hits(set));
+                                        SWARD_ASSIGN(const trace::PatchScene* traced, scene());
+                                        return trace::sampleVisibility(*traced, *found, m_project.sampling, job);
+                                      });
+}
+
+Result<std::shared_ptr<const trace::LayerLuminance>> Session::luminance(LayerSet set, std::size_t light) {
+  return node<trace::LayerLuminance>("luminance", lightName(set, light), m_keys.of(set).luminance[light], Keep::Disk,
+                                     [&](const JobContext& job) -> Result<trace::LayerLuminance> {
+                                       SWARD_ASSIGN(const auto found, hits(set));
+                                       SWARD_ASSIGN(const trace::PatchScene* traced, scene());
+                                       return trace::sampleLuminance(*traced, *found, m_lights[light], job);
+                                     });
+}
+
+Result<lpt::Fit> Session::makeFit(LayerSet set, const lpt::FitOptions& options, const JobContext& job) {
+  SWARD_ASSIGN(const auto found, hits(set));
+  SWARD_ASSIGN(const auto seen, visibility(set));
+  std::vector<std::shared_ptr<const trace::LayerLuminance>> lit;
+  for (std::size_t light = 0; light < m_lights.size(); ++light) {
+    SWARD_ASSIGN(auto one, luminance(set, light));
+    lit.push_back(std::move(one));
+  }
+  std::vector<float> coverage(found->texels());
+  for (std::size_t t = 0; t < coverage.size(); ++t) coverage[t] = found->coverage(t);
+
+  lpt::FitInput input;
+  input.columns = found->shape.columns();
+  input.layers = found->shape.layers;
+  input.columnStart = found->columnStart;
+  input.layer = found->layer;
+  input.coverage = coverage;
+  input.visibility = seen->visibility;
+  input.visibilityDirections = m_project.sampling.visibilityDirections;
+  input.lights = m_lights;
+  input.channels = set == LayerSet::Ground ? 1 : 2;
+  for (const auto& one : lit) input.samples.emplace_back(one->reflected);
+  for (std::size_t light = 0; light < lit.size() && input.channels == 2; ++light) {
+    input.samples.emplace_back(lit[light]->transmitted);
+  }
+  SWARD_ASSIGN(lpt::Fit fitted, lpt::fit(input, options, job));
+  if (m_job.cancelled()) return Error::cancelled();
+  lpt::fillEmpty(fitted, found->shape.width, found->shape.height, true);
+  return fitted;
+}
+
+Result<std::shared_ptr<const lpt::Fit>> Session::fitWith(LayerSet set, const lpt::FitOptions& options,
+                                                         const std::string& what, const base::Hash128& key) {
+  return node<lpt::Fit>("fit", what, key, Keep::Disk,
+                        [&](const JobContext& job) { return makeFit(set, options, job); });
+}
+
+Result<std::shared_ptr<const lpt::Fit>> Session::fit(LayerSet set) {
+  return fitWith(set, fitOptionsOf(m_project, set), trace::layerSetName(set), m_keys.of(set).fit);
+}
+
+Result<std::shared_ptr<const lpt::Fit>> Session::seamFit() {
+  if (m_project.fit.basis == lpt::Basis::Lpt) return fit(LayerSet::Slices);
+  lpt::FitOptions options = m_project.fit;
+  options.basis = lpt::Basis::Lpt;
+  return fitWith(LayerSet::Slices, options, "seams", m_keys.seamFit);
+}
+
+Result<std::shared_ptr<const tiles::TileSet>> Session::tileSet() {
+  return node<tiles::TileSet>(
+      "tiles", "", m_keys.tiles, Keep::MemoryAndDisk, [&](const JobContext& job) -> Result<tiles::TileSet> {
+        SWARD_ASSIGN(const auto fitted, seamFit());
+        SWARD_ASSIGN(const auto found, hits(LayerSet::Slices));
+        SWARD_ASSIGN(const auto shaded, surface(LayerSet::Slices));
+        const trace::LayerVisibility unused;
+        const auto columns = seamColumns({*found, *shaded, unused, *fitted});
+        const int resolution = m_project.sampling.sliceResolution;
+        return tiles::makeTileSet(columns, resolution, resolution / m_project.sampling.blades, m_project.tiles, job);
+      });
+}
+
+Result<std::shared_ptr<const lpt::LayerStack>> Session::stack(LayerSet set) {
+  return node<lpt::LayerStack>("stack", trace::layerSetName(set), m_keys.of(set).stack, Keep::Memory,
+                               [&](const JobContext& job) -> Result<lpt::LayerStack> {
+                                 const bool tiled = set == LayerSet::Slices || set == LayerSet::Ground;
+                                 SWARD_ASSIGN(const auto found, hits(set));
+                                 SWARD_ASSIGN(const auto seen, visibility(set));
+                                 SWARD_ASSIGN(const auto fitted, fit(set));
+                                 SWARD_ASSIGN(const auto shaded, surface(set));
+                                 const SetLayers layers{*found, *shaded, *seen, *fitted};
+                                 lpt::LayerStackInput input;
+                                 if (tiled) {
+                                   SWARD_ASSIGN(const auto cut, tileSet());
+                                   input = tileStack(layers, *cut, job);
+                                 } else {
+                                   input = patchStack(layers, job);
+                                 }
+                                 if (m_job.cancelled()) return Error::cancelled();
+                                 return lpt::quantise(input, m_project.fit, !tiled, job);
+                               });
+}
+
+Result<GroundBake> Session::makeGround(const JobContext&) {
+  GroundBake ground;
+  ground.patchSideM = m_project.patch.sideM;
+  ground.bladesPerPatch = m_project.sampling.blades;
+  for (const LayerSet set : trace::kAllLayerSets) {
+    SWARD_ASSIGN(const auto made, stack(set));
+    const auto index = static_cast<std::size_t>(set);
+    if (set == LayerSet::Slices) {
+      ground.slices = *made;
+    } else if (set == LayerSet::Ground) {
+      ground.soil = *made;
+    } else {
+      ground.blades[index - static_cast<std::size_t>(LayerSet::BladesPosX)] = *made;
+    }
+  }
+  SWARD_ASSIGN(const auto cut, tileSet());
+  SWARD_ASSIGN(const auto grown, patch());
+  ground.heightM = grown->heightM;
+  ground.tiles = *cut;
+  ground.bladeOwners = tiles::bladeOwners(*cut, m_project.sampling.blades);
+  SWARD_ASSIGN(ground.map, tiles::makeTileMap(*cut, m_project.tiles.mapWidth, m_project.tiles.mapHeight,
+                                              m_project.tiles.map, m_project.tiles.seed));
+  return ground;
+}
+
+Result<std::shared_ptr<const GroundBake>> Session::ground() {
+  return node<GroundBake>("ground", "", m_keys.ground, Keep::MemoryAndDisk,
+                          [&](const JobContext& job) { return makeGround(job); });
+}
+
+BakeReport Session::takeReport() {
+  if (m_scene) {
+    const trace::RayCounts rays = m_scene->rayCounts();
+    m_report.raysNearest = rays.nearest;
+    m_report.raysOcclusion = rays.occlusion;
+  }
+  m_report.seconds = std::chrono::duration<double>(Clock::now() - m_start).count();
+  return std::move(m_report);
+}
+
+}  // namespace sward::bake

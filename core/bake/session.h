@@ -1,0 +1,85 @@
+#pragma once
+
+#include "bake/bake.h"
+#include "bake/keys.h"
+#include "bake/memory_cache.h"
+#include "bake/payload.h"
+#include "bake/stacks.h"
+
+#include <chrono>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sward::bake {
+
+/// One walk of the graph, from the ground down to what is missing. Lives for one call of Baker::ground.
+class Session {
+ public:
+  Session(const project::Project& project, std::vector<glm::dvec3> lights, GroundKeys keys, const JobContext& job,
+          MemoryCache& memory, std::optional<DiskCache>& disk);
+
+  Result<std::shared_ptr<const GroundBake>> ground();
+  BakeReport takeReport();
+
+ private:
+  template <typename T>
+  using Shared = std::shared_ptr<const T>;
+  using Clock = std::chrono::steady_clock;
+
+  /// Where a node's result is looked for and kept. The memory cache holds what an editor asks for again; large results
+  /// are only remembered while someone holds them.
+  enum class Keep { WhileHeld, Memory, Disk, MemoryAndDisk };
+
+  /// All nodes in the order of a cold bake, with their parts of the progress bar.
+  void plan();
+  void planNode(const std::string& kind, const std::string& what, double weight);
+
+  /// The result of a node: what is held, else from memory, else from disk, else make(job of this node).
+  template <typename T, typename Make>
+  Result<Shared<T>> node(const std::string& kind, const std::string& what, const base::Hash128& key, Keep keep,
+                         const Make& make);
+  template <typename T>
+  Shared<T> find(const std::string& kind, const base::Hash128& key, Keep keep, NodeReport& report);
+  template <typename T>
+  Shared<T> findOnDisk(const std::string& kind, const base::Hash128& key, Keep keep, NodeReport& report);
+  template <typename T>
+  void remember(const std::string& kind, const base::Hash128& key, Keep keep, const Shared<T>& value,
+                NodeReport& report);
+  std::size_t indexOf(const std::string& kind, const std::string& what) const;
+  JobContext jobOf(std::size_t node) const;
+
+  Result<Shared<scene::Patch>> patch();
+  Result<const trace::PatchScene*> scene();
+  Result<Shared<trace::LayerHits>> hits(trace::LayerSet set);
+  Result<Shared<trace::LayerSurface>> surface(trace::LayerSet set);
+  Result<Shared<trace::LayerVisibility>> visibility(trace::LayerSet set);
+  Result<Shared<trace::LayerLuminance>> luminance(trace::LayerSet set, std::size_t light);
+  Result<Shared<lpt::Fit>> fit(trace::LayerSet set);
+  Result<Shared<lpt::Fit>> seamFit();
+  Result<Shared<lpt::Fit>> fitWith(trace::LayerSet set, const lpt::FitOptions& options, const std::string& what,
+                                   const base::Hash128& key);
+  Result<lpt::Fit> makeFit(trace::LayerSet set, const lpt::FitOptions& options, const JobContext& job);
+  Result<Shared<tiles::TileSet>> tileSet();
+  Result<Shared<lpt::LayerStack>> stack(trace::LayerSet set);
+  Result<GroundBake> makeGround(const JobContext& job);
+
+  const project::Project& m_project;
+  std::vector<glm::dvec3> m_lights;
+  GroundKeys m_keys;
+  const JobContext& m_job;
+  MemoryCache& m_memory;
+  std::optional<DiskCache>& m_disk;
+
+  std::unique_ptr<trace::PatchScene> m_scene;
+  std::map<base::Hash128, std::weak_ptr<const void>> m_held;
+  BakeReport m_report;
+  std::vector<double> m_progressEnd;  ///< of each node, cumulated weights
+  double m_childSeconds = 0.0;        ///< time that the running node's inputs took, so that each node's time is its own
+  bool m_storeFailed = false;         ///< the disk cache refused an entry
+  Clock::time_point m_start = Clock::now();
+};
+
+}  // namespace sward::bake

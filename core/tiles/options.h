@@ -15,7 +15,8 @@ struct TileOptions {
   int resolution = 64;     ///< texels along a tile's side
   int coloursPerAxis = 3;  ///< 1 to 4
   int tilesPerPair = 2;    ///< tiles for every (south, west) pair: 3 * 3 * 2 = 18
-  int overlap = 12;        ///< texels of the overlap band about each diagonal, on each side
+  int overlap = 12;        ///< texels of the overlap band about each diagonal, on each side, along x or y; up to a
+                           ///< quarter of the resolution
   int apron = 8;           ///< texels round a tile: 2^k serves mip levels up to k
   SeamMethod seam = SeamMethod::DynamicProgramming;
   SeamDomain domain = SeamDomain::Disc;

@@ -24,7 +24,8 @@ struct SeamColumn {
 };
 
 /// Cost of a seam between two pixseries: sum over RGB of c^T G c with c the difference of colour times coefficients
-/// summed over the two responses (equations 8 and 9 in closed form), weighted by the mean coverage.
+/// summed over the two responses (equations 8 and 9 in closed form), weighted by the mean coverage. A column without
+/// coverage shows nothing, whatever its coefficients; values that are not finite count as 0.
 double seamCost(const SeamColumn& a, const SeamColumn& b, std::span<const double, 100> gram);
 
 struct Tile {
@@ -42,9 +43,11 @@ struct TileSet {
   std::vector<Tile> tiles;
   /// Patch texel at the middle of an edge of each colour: first the horizontal edges' colours, then the vertical ones'.
   std::vector<glm::ivec2> diamonds;
-  /// Which edge's diamond owns a texel, [tile][y][x] over resolution^2: an Edge.
+  /// Which edge's diamond owns a texel, [tile][y][x] over resolution^2: an Edge. The outermost row or column along an
+  /// edge is that edge's own; of the corner texels, which lie on two, the south-west is the south edge's, and so round.
   std::vector<std::uint8_t> owner;
-  std::vector<double> seamCosts;  ///< of each tile, summed along its seams
+  /// Of each tile, summed along its seams: seamCost at both texels of every pair of 4-neighbours that a seam parts.
+  std::vector<double> seamCosts;
 
   int side() const { return resolution + 2 * apron; }
   /// Patch column (y * patchResolution + x) that tile texel (x, y) in [0, resolution)^2 shows.
@@ -54,13 +57,16 @@ struct TileSet {
 };
 
 /// Chooses diamonds (far apart on the patch, at multiples of `pitch` texels so that blade slabs line up), assembles
-/// every tile and cuts its seams. `columns` has patchResolution^2 entries. Errors: a patch smaller than a diamond, odd
-/// sizes, an overlap that does not fit.
+/// every tile and cuts its seams; of equally spread diamonds those whose seams cost least. `columns` has
+/// patchResolution^2 entries. Errors: a patch smaller than a diamond, odd sizes, an overlap that does not fit, a pitch
+/// that does not divide the patch and half a tile. A cancelled job returns Error::cancelled(). Same bytes on any number
+/// of threads.
 Result<TileSet> makeTileSet(std::span<const SeamColumn> columns, int patchResolution, int pitch,
                             const TileOptions& options, const JobContext& job);
 
 /// What a texel of the tile with its apron shows: one patch column, or in the apron a mean of several that may stand
-/// there (neighbours that agree count once). x, y in [-apron, resolution + apron). Weights sum to 1.
+/// there (one entry for all neighbours that agree, with their summed weight). x, y in [-apron, resolution + apron).
+/// Weights sum to 1.
 struct WeightedColumn {
   std::uint32_t column = 0;
   float weight = 1.0f;
@@ -82,8 +88,9 @@ struct TileMap {
   int width = 0, height = 0;
   std::vector<std::uint8_t> tiles;
 };
-/// Scan order: each cell takes at random one of the tiles that match its left and lower neighbours. Hashed: any cell by
-/// itself, from hashed edge colours; needs the complete set (error otherwise).
+/// Scan order: each cell takes at random one of the tiles that match its left and lower neighbours, less likely one
+/// that stands near by already. Hashed: any cell by itself, from hashed edge colours; needs the complete set (error
+/// otherwise). Sides from 1 to 32768.
 Result<TileMap> makeTileMap(const TileSet& set, int width, int height, MapMethod method, std::uint64_t seed);
 
 void save(base::ByteWriter& out, const TileSet& set);

@@ -347,8 +347,9 @@ TEST(TileSetBytes, DamageIsDetectedOrHarmless) {
     if (!load(in, read)) continue;
     ++accepted;
     // What is accepted may be used without reading out of bounds.
+    const auto side = static_cast<std::uint32_t>(read.patchResolution);
+    const std::uint32_t limit = side * side;
     for (int tile = 0; tile < tileCount(read); ++tile) {
-      const std::uint32_t limit = static_cast<std::uint32_t>(read.patchResolution * read.patchResolution);
       for (int i = 0; i < read.resolution; ++i) ASSERT_LT(read.patchColumn(tile, i, i), limit);
       ASSERT_FALSE(texelSources(read, tile, -read.apron, read.resolution + read.apron - 1).empty());
     }

@@ -1,0 +1,238 @@
+#include "render/ground_pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sward::render {
+namespace {
+
+// The same as in shaders/ground/constants.glsl.
+constexpr double kSlicesFrom = 0.50, kSlicesAll = 0.80;
+constexpr double kDiagonalFade = 0.05;
+constexpr double kSunDiscGain = 60.0;
+
+constexpr unsigned kSlices = 1, kBladesX = 2, kBladesY = 4;
+constexpr double kNoiseSide = 256.0;
+
+double smoothstep(double low, double high, double x) {
+  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+double cosTheta0(const RenderOptions& options) {
+  return std::cos(std::clamp(options.bladeAngleDeg, 0.0, 89.0) * std::numbers::pi / 180.0);
+}
+
+/// Families of planes that a ray needs: the weights of shaders/ground/surface.glsl or blended.frag that are above 0.
+unsigned familiesOf(const glm::dvec3& d, const RenderOptions& options) {
+  const double facing = std::abs(d.z);
+  if (options.method != GroundMethod::March) return kSlices | (facing < cosTheta0(options) ? kBladesX | kBladesY : 0u);
+  const double steep = smoothstep(kSlicesFrom * cosTheta0(options), kSlicesAll * cosTheta0(options), facing);
+  const double towardX = std::abs(d.x) / std::max(std::abs(d.x) + std::abs(d.y), 1e-6);
+  const double x = smoothstep(0.5 - kDiagonalFade, 0.5 + kDiagonalFade, towardX);
+  unsigned families = steep > 0.0 ? kSlices : 0u;
+  if (steep < 1.0) families |= (x > 0.0 ? kBladesX : 0u) | (x < 1.0 ? kBladesY : 0u);
+  return families;
+}
+
+/// Blade sets that face a ray.
+SetMask facingSets(const glm::dvec3& d, unsigned families) {
+  SetMask sets;
+  if ((families & kBladesX) != 0) sets.set(d.x < 0.0 ? 1 : 2);
+  if ((families & kBladesY) != 0) sets.set(d.y < 0.0 ? 3 : 4);
+  return sets;
+}
+
+double radicalInverse(unsigned index, unsigned base) {
+  double value = 0.0, digit = 1.0 / base;
+  for (; index > 0; index /= base, digit /= base) value += digit * (index % base);
+  return value;
+}
+
+/// A tent over [-1, 1] from a uniform number (its inverse distribution).
+double tent(double u) {
+  return u < 0.5 ? std::sqrt(2.0 * u) - 1.0 : 1.0 - std::sqrt(2.0 - 2.0 * u);
+}
+
+/// Place of a sample in its pixel, from the centre, in pixels: tent-distributed, so that a plain mean filters with a
+/// tent two pixels wide (Ernst et al. 2006, filter importance sampling).
+glm::dvec2 samplePlace(int sample, int samples) {
+  if (samples <= 1) return glm::dvec2(0.0);
+  const auto index = static_cast<unsigned>(sample + 1);
+  return {tent(radicalInverse(index, 2)), tent(radicalInverse(index, 3))};
+}
+
+/// The generalised golden ratio sequence in three dimensions (Roberts 2018).
+glm::vec3 sampleShift(int sample) {
+  constexpr double g = 1.22074408460575947536;
+  const double n = sample;
+  const auto part = [&](double rate) { return static_cast<float>(n * rate - std::floor(n * rate)); };
+  return {part(1.0 / g), part(1.0 / (g * g)), part(1.0 / (g * g * g))};
+}
+
+double positiveModulo(double value, double period) {
+  return value - period * std::floor(value / period);
+}
+
+void setView(gpu::Program& program, const Frame& frame, int sample) {
+  const scene::Camera& camera = frame.camera;
+  const glm::dvec2 place = samplePlace(sample, frame.options.samples);
+  const glm::dvec2 scale(2.0 / frame.width, 2.0 / frame.height);
+  const double aspect = static_cast<double>(frame.width) / frame.height;
+  setIfUsed(program, "u_pixelScale", glm::vec2(scale));
+  setIfUsed(program, "u_pixelOffset", glm::vec2(place * scale - 1.0));
+  setIfUsed(program, "u_viewRight", glm::vec3(camera.right * camera.tanHalfWidth));
+  setIfUsed(program, "u_viewUp", glm::vec3(camera.up * (camera.tanHalfWidth / aspect)));
+  setIfUsed(program, "u_viewForward", glm::vec3(camera.forward));
+  setIfUsed(program, "u_sampleShift", sampleShift(sample));
+  setIfUsed(program, "u_pixelAngle", static_cast<float>(2.0 * camera.tanHalfWidth / frame.width));
+}
+
+/// World origin is the south-west corner of the map's middle cell; cells repeat beyond the map. Shaders count cells
+/// from the eye's own, so that floats stay small.
+void setPlace(gpu::Program& program, const PassInput& input, const Frame& frame) {
+  const bake::GroundBake& ground = *input.ground;
+  const double side = ground.tileSideM();
+  const glm::dvec2 eye = glm::dvec2(frame.camera.position) / side;
+  const glm::dvec2 cell = glm::floor(eye);
+  const double perM = 1.0 / std::max(frame.options.macroScaleM, 1e-3);
+  setIfUsed(program, "u_eyeTiles", glm::vec2(eye - cell));
+  setIfUsed(program, "u_eyeM", static_cast<float>(std::max(frame.camera.position.z, 1e-3)));
+  setIfUsed(program, "u_tilesPerM", static_cast<float>(1.0 / side));
+  setIfUsed(program, "u_heightM", static_cast<float>(std::max(ground.heightM, 1e-4)));
+  setIfUsed(program, "u_mapSize", glm::vec2(ground.map.width, ground.map.height));
+  setIfUsed(program, "u_mapOffset",
+            glm::vec2(positiveModulo(cell.x + ground.map.width / 2, ground.map.width),
+                      positiveModulo(cell.y + ground.map.height / 2, ground.map.height)));
+  setIfUsed(program, "u_noisePerM", static_cast<float>(perM));
+  setIfUsed(
+      program, "u_noiseOffset",
+      glm::vec2(positiveModulo(cell.x * side * perM, kNoiseSide), positiveModulo(cell.y * side * perM, kNoiseSide)));
+  setIfUsed(program, "u_macroVariation", static_cast<float>(frame.options.macroVariation));
+}
+
+void setSets(gpu::Program& program, const PassInput& input) {
+  const RelitGround& relit = *input.relit;
+  const SetLayout& slices = relit.layout(kSliceSet);
+  const double side = input.ground->tileSideM();
+  setIfUsed(program, "u_tiles", relit.tiles());
+  setIfUsed(program, "u_sliceSize", slices.width);
+  setIfUsed(program, "u_sliceMaxLevel", slices.maxLevel);
+  setIfUsed(program, "u_slicePlanes", slices.planes());
+  setIfUsed(program, "u_sliceLayers", slices.layers);
+  setIfUsed(program, "u_slicesPerM", static_cast<float>(slices.width / side));
+  if (!relit.hasBlades()) return;
+  const SetLayout& blades = relit.layout(1);
+  // Blade texels are not square; a level is chosen by their geometric mean.
+  const double rowsPerM = blades.height / std::max(input.ground->heightM, 1e-4);
+  setIfUsed(program, "u_bladeSize", glm::ivec2(blades.width, blades.height));
+  setIfUsed(program, "u_bladeMaxLevel", blades.maxLevel);
+  setIfUsed(program, "u_bladeVerticalLevels", blades.verticalLevels);
+  setIfUsed(program, "u_bladePlanes", blades.planes());
+  setIfUsed(program, "u_slabs", relit.slabsOfTile());
+  setIfUsed(program, "u_bladesPerM", static_cast<float>(std::sqrt(blades.width / side * rowsPerM)));
+  if (!program.has("u_bladeBase")) return;
+  std::array<unsigned, 4> bases{};
+  for (std::size_t i = 0; i < bases.size(); ++i) bases[i] = static_cast<unsigned>(relit.base(i + 1));
+  program.set("u_bladeBase", std::span<const unsigned>(bases));
+}
+
+void setLight(gpu::Program& program, const PassInput& input, const Frame& frame, double weight) {
+  setIfUsed(program, "u_relightScale", static_cast<float>(input.relit->scale()));
+  setIfUsed(program, "u_cosTheta0", static_cast<float>(cosTheta0(frame.options)));
+  setIfUsed(program, "u_exposure", static_cast<float>(frame.exposure * weight));
+  setIfUsed(program, "u_hazePerM", static_cast<float>(input.hazePerM));
+  setIfUsed(program, "u_sunDirection", glm::vec3(input.sunDirection));
+  setIfUsed(program, "u_sunDisc", glm::vec3(input.sunIrradiance * kSunDiscGain));
+}
+
+void bindTextures(gpu::Program& program, const PassInput& input, const gpu::Texture& blocks) {
+  program.set("t_blocks", 0);
+  setIfUsed(program, "t_relit", 1);
+  setIfUsed(program, "t_map", 2);
+  setIfUsed(program, "t_sky", 3);
+  setIfUsed(program, "t_noise", 4);
+  blocks.bind(0);
+  input.relit->relit().bind(1);
+  input.map->bind(2);
+  input.sky->bind(3);
+  input.noise->bind(4);
+}
+
+}  // namespace
+
+BlockPlan planBlocks(const Frame& frame, const bake::GroundBake& ground, bool hasBlades) {
+  constexpr int kProbes = 8;  // rays along a block's side, its corners and one pixel around them included
+  const bool inside = frame.camera.position.z < ground.heightM;
+  const double aspect = static_cast<double>(frame.width) / frame.height;
+  BlockPlan plan;
+  for (int y = 0; y < frame.height; y += BlockPlan::kBlock) {
+    for (int x = 0; x < frame.width; x += BlockPlan::kBlock) {
+      unsigned families = 0;
+      for (int probe = 0; probe < (kProbes + 1) * (kProbes + 1); ++probe) {
+        const double px = x - 2.0 + (BlockPlan::kBlock + 4.0) * (probe % (kProbes + 1)) / kProbes;
+        const double py = y - 2.0 + (BlockPlan::kBlock + 4.0) * (probe / (kProbes + 1)) / kProbes;
+        const glm::dvec3 d = frame.camera.rayDirection(px / frame.width, 1.0 - py / frame.height, aspect);
+        if (d.z >= 0.0 && !inside) continue;
+        const unsigned needed = hasBlades ? familiesOf(d, frame.options) : kSlices;
+        families |= needed;
+        plan.sets |= facingSets(d, needed);
+        plan.sets.set(kSliceSet);  // slices, or the soil alone
+      }
+      plan.blocks[families].push_back(static_cast<std::uint32_t>(x) | (static_cast<std::uint32_t>(y) << 16));
+    }
+  }
+  return plan;
+}
+
+GroundPass GroundPass::create() {
+  GroundPass pass;
+  pass.m_vertices = gpu::VertexArray::make();
+  return pass;
+}
+
+Result<gpu::Program*> GroundPass::variant(ProgramCache& programs, GroundMethod method, std::size_t families) const {
+  if (families == 0) return programs.blocks("ground/sky.frag", {}, {"t_blocks", "t_sky", "u_sunDisc", "u_exposure"});
+  const std::string file = method == GroundMethod::March ? "ground/march.frag" : "ground/blended.frag";
+  Defines defines{{"SWARD_FAMILIES", std::to_string(families)}};
+  if (method != GroundMethod::March)
+    defines.emplace_back("SWARD_PAPER_WEIGHTS", method == GroundMethod::BlendedPaper ? "1" : "0");
+  return programs.blocks(file, defines,
+                         {"t_blocks", "t_relit", "t_map", "t_sky", "u_exposure", "u_eyeTiles", "u_heightM",
+                          "u_relightScale", "u_hazePerM", "u_mapOffset"});
+}
+
+Result<void> GroundPass::draw(ProgramCache& programs, const PassInput& input, const Frame& frame, const BlockPlan& plan,
+                              int sample, double weight) {
+  std::vector<std::uint32_t> all;
+  for (const auto& blocks : plan.blocks) all.insert(all.end(), blocks.begin(), blocks.end());
+  const auto bytes = std::as_bytes(std::span(all));
+  if (m_blocks.size() < bytes.size()) {
+    m_blocks = gpu::Buffer(bytes.size());
+    m_blocksView = gpu::Texture::ofBuffer(GL_R32UI, m_blocks);
+  }
+  m_blocks.write(bytes);
+  gpu::gl().Viewport(0, 0, frame.width, frame.height);
+  m_vertices.bind();
+  std::size_t first = 0;
+  for (std::size_t families = 0; families < plan.blocks.size(); ++families) {
+    const std::size_t count = plan.blocks[families].size();
+    if (count == 0) continue;
+    SWARD_ASSIGN(gpu::Program * program, variant(programs, frame.options.method, families));
+    program->use();
+    bindTextures(*program, input, m_blocksView);
+    program->set("u_firstBlock", static_cast<int>(first));
+    program->set("u_targetSize", glm::ivec2(frame.width, frame.height));
+    program->set("u_blockSize", BlockPlan::kBlock);
+    setView(*program, frame, sample);
+    setPlace(*program, input, frame);
+    setSets(*program, input);
+    setLight(*program, input, frame, weight);
+    gpu::gl().DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count));
+    first += count;
+  }
+  return {};
+}
+
+}  // namespace sward::render

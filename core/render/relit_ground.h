@@ -1,0 +1,75 @@
+#pragma once
+
+#include "bake/ground_bake.h"
+#include "base/result.h"
+#include "gpu/objects.h"
+#include "render/programs.h"
+#include "render/relit_layout.h"
+
+#include <array>
+#include <bitset>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace sward::render {
+
+/// The relit sets in the order of their place in the buffer: slices with the soil, then the blades seen from +x, -x,
+/// +y, -y.
+inline constexpr std::size_t kSliceSet = 0;
+inline constexpr std::size_t kSetCount = 5;
+using SetMask = std::bitset<kSetCount>;
+
+/// A ground's stacks on the GPU and their relit texels (shaders/include/layout.glsl).
+class RelitGround {
+ public:
+  /// Uploads the stacks. Errors: shapes that do not fit each other, or textures beyond the driver's limit.
+  static Result<RelitGround> create(const bake::GroundBake& ground);
+
+  /// The light that the next relight() uses; relit sets become stale when it differs.
+  void setIllumination(const lpt::Illumination& light);
+  /// Relights those of `sets` that are stale (slices and soil go together), their mips and means.
+  Result<void> relight(ProgramCache& programs, SetMask sets);
+  void invalidate() { m_fresh.reset(); }
+
+  const gpu::Texture& relit() const { return m_relitView; }
+  const SetLayout& layout(std::size_t set) const { return set == kSliceSet ? m_sliceLayout : m_bladeLayout; }
+  std::size_t base(std::size_t set) const { return m_bases[set]; }
+  int tiles() const { return m_tiles; }
+  int slabsOfTile() const { return m_slabs; }
+  bool hasBlades() const { return m_slabs > 0; }
+  double scale() const { return m_scale; }
+  /// One plane of a relit set as the GPU holds it, decoded: straight radiance over scale(), coverage.
+  std::vector<glm::vec4> readPlane(std::size_t set, int plane, int level) const;
+
+ private:
+  /// A LayerStack's bytes on the GPU.
+  struct Stack {
+    explicit Stack(const lpt::LayerStack& stack);
+    lpt::Basis basis;
+    int width, height, images, layers, channels, bits;
+    std::vector<lpt::CoefficientRange> ranges;
+    gpu::Buffer coefficients, surface, transmission, sky;
+    gpu::Texture coefficientsView, surfaceView, transmissionView, skyView;
+    bool transmits = false;
+  };
+  struct Target;
+
+  Result<void> relightStack(ProgramCache& programs, const Stack& stack, const Target& target);
+  Result<void> relightSlices(ProgramCache& programs);
+  Result<void> relightBlades(ProgramCache& programs, std::size_t side);
+  Result<void> makeMips(ProgramCache& programs, std::size_t set, int firstLevel);
+
+  std::vector<Stack> m_stacks;  ///< slices, soil, then four blade sides when there are any
+  SetLayout m_sliceLayout, m_bladeLayout;
+  std::array<std::size_t, kSetCount> m_bases{};
+  gpu::Buffer m_relit, m_patch, m_owners;
+  gpu::Texture m_relitView, m_patchView, m_ownersView;
+  int m_tiles = 0, m_slabs = 0, m_patchSlabs = 0, m_apron = 0, m_tileTexels = 0;
+  float m_brightest = 1.0f;  ///< largest reflectance or transmittance of all stacks
+  lpt::Illumination m_light;
+  double m_scale = 1.0;
+  SetMask m_fresh;
+};
+
+}  // namespace sward::render

@@ -1,0 +1,98 @@
+// A LayerStack's bytes as 32-bit words (core/lpt/layer_stack.h), and its response to one light.
+// Defines: SWARD_LPT (1: ten coefficients a column; 0: six a texel), SWARD_CHANNELS, SWARD_BITS, SWARD_TRANSMISSION.
+
+uniform usamplerBuffer t_coefficients;
+uniform usamplerBuffer t_surface;
+uniform usamplerBuffer t_sky;
+#if SWARD_TRANSMISSION
+uniform usamplerBuffer t_transmission;
+#endif
+
+// The light's functions times the quantisation step, and what the bases add: f = constant + sum weight_j q_j.
+uniform float u_weights[20];     // [channel][coefficient]
+uniform float u_constants[6];    // [channel][A, B, C]
+uniform vec3 u_sun;              // sun irradiance / pi / relight scale
+uniform vec3 u_skyLight;         // mean sky radiance / relight scale
+
+#if SWARD_LPT
+const int kPerItem = 10;
+#else
+const int kPerItem = 6;
+#endif
+const int kPerWord = 32 / SWARD_BITS;
+const int kValues = kPerItem * SWARD_CHANNELS;
+const uint kMask = SWARD_BITS == 8 ? 0xffu : 0xffffu;
+
+// All coefficients of one column (LPT) or texel (PTM), still quantised.
+void loadCoefficients(int item, out float q[kValues]) {
+#if (SWARD_LPT * 10 + (1 - SWARD_LPT) * 6) * SWARD_CHANNELS * SWARD_BITS % 32 == 0
+  const int kWords = kValues / kPerWord;
+  for (int word = 0; word < kWords; ++word) {
+    uint bits = texelFetch(t_coefficients, item * kWords + word).r;
+    for (int i = 0; i < kPerWord; ++i) q[word * kPerWord + i] = float((bits >> uint(i * SWARD_BITS)) & kMask);
+  }
+#else
+  for (int j = 0; j < kValues; ++j) {
+    int at = item * kValues + j;
+    uint bits = texelFetch(t_coefficients, at / kPerWord).r;
+    q[j] = float((bits >> uint(at % kPerWord * SWARD_BITS)) & kMask);
+  }
+#endif
+}
+
+#if SWARD_LPT
+// f = A + B u + C u^2 for the light (equation 5 of the paper), per channel.
+struct Response {
+  vec3 abc[SWARD_CHANNELS];
+};
+Response columnResponse(int column) {
+  float q[kValues];
+  loadCoefficients(column, q);
+  Response response;
+  for (int c = 0; c < SWARD_CHANNELS; ++c) {
+    int k = c * 10;
+    float a = u_constants[c * 3] + u_weights[k] * q[k] + u_weights[k + 1] * q[k + 1] + u_weights[k + 3] * q[k + 3] +
+              u_weights[k + 6] * q[k + 6] + u_weights[k + 7] * q[k + 7] + u_weights[k + 9] * q[k + 9];
+    float b = u_constants[c * 3 + 1] + u_weights[k + 4] * q[k + 4] + u_weights[k + 5] * q[k + 5] +
+              u_weights[k + 8] * q[k + 8];
+    float cc = u_constants[c * 3 + 2] + u_weights[k + 2] * q[k + 2];
+    response.abc[c] = vec3(a, b, cc);
+  }
+  return response;
+}
+#endif
+
+vec2 texelResponse(
+#if SWARD_LPT
+    Response response, float u
+#else
+    int texel
+#endif
+) {
+  vec2 f = vec2(0.0);
+#if SWARD_LPT
+  for (int c = 0; c < SWARD_CHANNELS; ++c)
+    f[c] = response.abc[c].x + (response.abc[c].y + response.abc[c].z * u) * u;
+#else
+  float q[kValues];
+  loadCoefficients(texel, q);
+  for (int c = 0; c < SWARD_CHANNELS; ++c) {
+    f[c] = u_constants[c * 3];
+    for (int j = 0; j < 6; ++j) f[c] += u_weights[c * 10 + j] * q[c * 6 + j];
+  }
+#endif
+  return max(f, vec2(0.0));
+}
+
+// Radiance over the relight scale (straight) and coverage of one texel.
+vec4 relitTexel(int texel, vec2 f) {
+  vec4 surface = unpackUnorm4x8(texelFetch(t_surface, texel).r);
+  uint skyPair = texelFetch(t_sky, texel >> 1).r >> uint((texel & 1) * 16);
+  vec2 sky = vec2(float(skyPair & 0xffu), float((skyPair >> 8) & 0xffu)) / 255.0;
+  vec3 radiance = surface.rgb * surface.rgb * (f.x * u_sun + sky.x * u_skyLight);
+#if SWARD_TRANSMISSION
+  vec3 through = unpackUnorm4x8(texelFetch(t_transmission, texel).r).rgb;
+  radiance += through * through * (f.y * u_sun + sky.y * u_skyLight);
+#endif
+  return vec4(radiance, surface.a);
+}

@@ -16,14 +16,23 @@ namespace fs = std::filesystem;
 Error ioError(const std::string& what, const fs::path& path, int code) {
   std::string remedy;
   switch (code) {
-    case ENOENT: remedy = "Check the path, or create the folder first."; break;
+    case ENOENT:
+      remedy = "Check the path, or create the folder first.";
+      break;
     case EACCES:
     case EPERM:
-    case EROFS: remedy = "Choose a place that you may write to, or change its permissions."; break;
+    case EROFS:
+      remedy = "Choose a place that you may write to, or change its permissions.";
+      break;
     case ENOSPC:
-    case EDQUOT: remedy = "Free some space on that disk, or choose another."; break;
-    case EISDIR: remedy = "Give the name of a file."; break;
-    default: break;
+    case EDQUOT:
+      remedy = "Free some space on that disk, or choose another.";
+      break;
+    case EISDIR:
+      remedy = "Give the name of a file.";
+      break;
+    default:
+      break;
   }
   const bool users = code == ENOENT || code == EISDIR || code == ENOTDIR;
   return {users ? ErrorKind::BadInput : ErrorKind::Failed, what + ": " + std::strerror(code), path.string(), remedy};
@@ -45,7 +54,10 @@ int writeAll(int fd, const std::byte* data, std::size_t size) {
 
 fs::path temporaryBeside(const fs::path& path) {
   static std::atomic<unsigned> counter{0};
-  fs::path name = "." + path.stem().string() + ".tmp" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
+  std::string text = ".";
+  text += path.stem().string();
+  text += ".tmp" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
+  fs::path name = text;
   name += path.extension();
   return path.parent_path() / name;
 }
@@ -62,7 +74,8 @@ Result<std::vector<std::byte>> readFile(const fs::path& path, std::uint64_t limi
     return ioError("cannot read the file", path, code);
   }
   std::vector<std::byte> data;
-  data.resize(static_cast<std::size_t>(std::min<std::uint64_t>(static_cast<std::uint64_t>(info.st_size), limitBytes) + 1));
+  data.resize(
+      static_cast<std::size_t>(std::min<std::uint64_t>(static_cast<std::uint64_t>(info.st_size), limitBytes) + 1));
   std::size_t used = 0;
   while (true) {
     if (used == data.size()) data.resize(std::max<std::size_t>(data.size() * 2, 4096));
@@ -98,7 +111,8 @@ Result<void> writeThroughTemporary(const fs::path& path, const std::function<Res
   Result<void> written = write(temporary);
   if (written.ok()) {
     // rename(2) replaces a read-only target whose folder is writable: a user who protected a file does not expect that.
-    if (fs::exists(path, code) && ::access(path.c_str(), W_OK) != 0) written = ioError("cannot write the file", path, errno);
+    if (fs::exists(path, code) && ::access(path.c_str(), W_OK) != 0)
+      written = ioError("cannot write the file", path, errno);
   }
   if (written.ok() && ::rename(temporary.c_str(), path.c_str()) != 0) {
     written = ioError("cannot write the file", path, errno);

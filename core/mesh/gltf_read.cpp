@@ -219,9 +219,10 @@ Result<Model> read(const fs::path& path, const GltfReadOptions& options) {
   MaterialReader materials(document, model, options.material);
   SWARD_TRY(SceneWalk(document, gathered, materials).run());
   if (model.triangles.empty()) {
-    const bool others = gathered.otherPrimitives > 0;
-    return Error::badInput(others ? "the scene holds points or lines but no triangles" : "the scene holds no triangles",
-                           {}, "Export a mesh with faces.");
+    std::string what = "the scene holds no triangles";
+    if (gathered.otherPrimitives > 0) what = "the scene holds points or lines but no triangles";
+    if (gathered.degenerate > 0) what = "no triangle of the scene has an area";
+    return Error::badInput(what, {}, "Export a mesh with faces.");
   }
   SWARD_TRY(place(gathered, options.heightM));
   addSummaries(gathered);

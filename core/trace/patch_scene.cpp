@@ -13,13 +13,6 @@ namespace {
 /// coordinate, 30 micrometres on a metre.
 constexpr double kOffset = 3e-5;
 
-RTCIntersectContext coherentContext() {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  return context;
-}
-
 }  // namespace
 
 PatchScene::PatchScene() : m_impl(std::make_unique<Impl>()) {}
@@ -56,7 +49,7 @@ void PatchScene::Impl::intersect(const int* valid, RTCRayHit16& packet) const {
     const std::scoped_lock lock(record->mutex);
     record->nearest.push_back(packet);
   }
-  RTCIntersectContext context = coherentContext();
+  RTCIntersectContext context = packetContext(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
   rtcIntersect16(valid, top.get(), &context, &packet);
 }
 
@@ -65,7 +58,7 @@ void PatchScene::Impl::occluded(const int* valid, RTCRay16& packet) const {
     const std::scoped_lock lock(record->mutex);
     record->occlusion.push_back(packet);
   }
-  RTCIntersectContext context = coherentContext();
+  RTCIntersectContext context = packetContext(RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
   rtcOccluded16(valid, top.get(), &context, &packet);
 }
 

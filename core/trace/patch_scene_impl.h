@@ -44,6 +44,15 @@ struct RayRecord {
   std::vector<RTCRay16> occlusion;
 };
 
+/// Measured on a dense meadow: the coherent mode traces the short parallel rays of a slab three times as fast as the
+/// other, and shadow rays, whose ways part among the blades, 10 to 40 % slower.
+inline RTCIntersectContext packetContext(RTCIntersectContextFlags flags) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = flags;
+  return context;
+}
+
 /// Which triangle of which instance was hit.
 struct SurfaceId {
   std::uint32_t instance = 0;
@@ -63,7 +72,7 @@ struct PatchScene::Impl {
   mutable std::atomic<std::uint64_t> nearestCount{0}, occlusionCount{0};
   RayRecord* record = nullptr;  ///< set by the report while it collects rays
 
-  /// Traces a packet; lanes with valid[i] = 0 are left alone. Rays are coherent: neighbours, in one direction.
+  /// Traces a packet; lanes with valid[i] = 0 are left alone. The rays of a packet share one direction.
   void intersect(const int* valid, RTCRayHit16& packet) const;
   void occluded(const int* valid, RTCRay16& packet) const;
   SurfaceId surfaceOf(std::uint32_t geometry, std::uint32_t primitive, std::uint32_t instance) const {

@@ -24,8 +24,17 @@ struct SetRays {
   glm::vec3 origin{0.0f}, uAxis{0.0f}, vAxis{0.0f}, direction{0.0f};
   float lead = 0.0f;  ///< distance from the rays' origins to the first slab
   float depth = 0.0f;
-  float firstStart = 0.0f;  ///< tnear of the first slab
-  float lastEnd = 0.0f;     ///< tfar of the last slab
+  float firstBorder = 0.0f;  ///< where the first slab begins: at its edge, or before it where nothing else lies
+  float rounding = 0.0f;     ///< of distances along the rays
+
+  // A plane on the border of two slabs belongs to the one before it, and a plane on the patch's periodic border to one
+  // end only. Embree's boxes are half-open by chance of rounding, so the borders are moved on by a few roundings, where
+  // no plane is put on purpose, and the search ends a little behind what is accepted.
+  float border(int layer, int layers) const {
+    const float step = depth / static_cast<float>(layers);
+    return (layer == 0 ? firstBorder : lead + step * static_cast<float>(layer)) + rounding;
+  }
+  float searchEnd(float end) const { return end + 4.0f * rounding; }
 };
 
 SetRays raysOf(LayerSet set, const PatchScene::Impl& scene, int layers) {
@@ -53,10 +62,8 @@ SetRays raysOf(LayerSet set, const PatchScene::Impl& scene, int layers) {
   rays.depth = slices ? height : side;
   rays.lead = rays.depth / static_cast<float>(layers);
   rays.origin -= rays.lead * rays.direction;
-  // Embree's interval is (tnear, tfar]: a plane on the border of two slabs belongs to the one before it, and one on the
-  // patch's periodic border to one end only. Slices have no copy beyond, so their ends take in their rounding.
-  rays.firstStart = slices ? 0.0f : rays.lead;
-  rays.lastEnd = rays.lead + rays.depth + (slices ? 2.0f * std::numeric_limits<float>::epsilon() * rays.depth : 0.0f);
+  rays.firstBorder = slices ? 0.0f : rays.lead;
+  rays.rounding = 4.0f * std::numeric_limits<float>::epsilon() * (rays.lead + rays.depth);
   return rays;
 }
 
@@ -179,9 +186,7 @@ BandHits HitSampler::sampleBand(int firstRow, const JobContext& job) const {
 }
 
 void HitSampler::traceLayer(Band& band, int layer, const std::vector<BandRay>& order) const {
-  const float step = m_rays.depth / static_cast<float>(m_shape.layers);
-  const float start = layer == 0 ? m_rays.firstStart : m_rays.lead + step * static_cast<float>(layer);
-  const float end = layer == m_shape.layers - 1 ? m_rays.lastEnd : m_rays.lead + step * static_cast<float>(layer + 1);
+  const float start = m_rays.border(layer, m_shape.layers), end = m_rays.border(layer + 1, m_shape.layers);
   alignas(64) RTCRayHit16 packet;
   alignas(64) int valid[kLanes];
   std::size_t slots[kLanes];
@@ -202,7 +207,7 @@ void HitSampler::traceLayer(Band& band, int layer, const std::vector<BandRay>& o
       packet.ray.dir_y[i] = m_rays.direction.y;
       packet.ray.dir_z[i] = m_rays.direction.z;
       packet.ray.tnear[i] = start;
-      packet.ray.tfar[i] = end;
+      packet.ray.tfar[i] = m_rays.searchEnd(end);
       packet.ray.time[i] = 0.0f;
       packet.ray.mask[i] = ~0u;
       packet.ray.id[i] = static_cast<std::uint32_t>(bits ^ (bits >> 16));
@@ -213,7 +218,7 @@ void HitSampler::traceLayer(Band& band, int layer, const std::vector<BandRay>& o
     }
     m_scene.intersect(valid, packet);
     for (int i = 0; i < lanes; ++i) {
-      if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+      if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID || packet.ray.tfar[i] > end) continue;
       band.found[slots[i]] = static_cast<std::uint32_t>(band.raw.size());
       band.raw.push_back({packet.ray.tfar[i], packet.hit.u[i], packet.hit.v[i],
                           m_scene.surfaceOf(packet.hit.geomID[i], packet.hit.primID[i], packet.hit.instID[0][i])});

@@ -44,24 +44,38 @@ Shifts overlappingShifts(double low, double high, double side) {
           static_cast<int>(std::floor((side + slack - low) / side))};
 }
 
-Result<std::vector<Placement>> placeCopies(const scene::Patch& patch) {
+bool isFinite(const glm::vec3& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+/// Boxes of the models, zero for empty ones.
+Result<std::vector<mesh::Bounds>> modelBoxes(const scene::Patch& patch) {
   std::vector<mesh::Bounds> boxes;
-  for (const auto& model : patch.models) boxes.push_back(model ? mesh::bounds(*model) : mesh::Bounds{});
+  for (const auto& model : patch.models) {
+    boxes.push_back(model ? mesh::bounds(*model) : mesh::Bounds{});
+    if (!model || std::all_of(model->positions.begin(), model->positions.end(), isFinite)) continue;
+    return Error::badInput("a vertex is not finite", "plant " + model->name, "Export the mesh again.");
+  }
+  return boxes;
+}
+
+Result<std::vector<Placement>> placeCopies(const scene::Patch& patch) {
+  SWARD_ASSIGN(const std::vector<mesh::Bounds> boxes, modelBoxes(patch));
   std::vector<Placement> placements;
   for (std::size_t i = 0; i < patch.instances.size(); ++i) {
     const scene::Instance& instance = patch.instances[i];
     SWARD_CHECK_LT(instance.model, patch.models.size());
     if (!patch.models[instance.model] || patch.models[instance.model]->empty()) continue;
     const mesh::Bounds box = transformedBounds(boxes[instance.model], instance.worldFromModel);
-    const glm::vec3 extent = box.high - box.low;
-    const std::string& name = patch.models[instance.model]->name;
-    if (!std::isfinite(extent.x + extent.y + extent.z) || !std::isfinite(box.low.x + box.low.y + box.low.z)) {
-      return Error::badInput("a vertex is not finite", "plant " + name, "Export the mesh again.");
+    if (!isFinite(box.low) || !isFinite(box.high)) {
+      return Error::badInput("an instance's transform is not finite", "plant " + patch.models[instance.model]->name,
+                             "Check its size and tilt.");
     }
     const double reach = static_cast<double>(std::max({-box.low.x, -box.low.y, box.high.x, box.high.y}));
     if (reach > kMaxReach * patch.sideM) {
       return Error::badInput("the plant is more than " + std::to_string(kMaxReach) + " times as wide as the patch",
-                             "plant " + name, "Make the patch larger or the plant smaller.");
+                             "plant " + patch.models[instance.model]->name,
+                             "Make the patch larger or the plant smaller.");
     }
     const Shifts sx = overlappingShifts(box.low.x, box.high.x, patch.sideM);
     const Shifts sy = overlappingShifts(box.low.y, box.high.y, patch.sideM);

@@ -25,6 +25,14 @@ std::uint64_t bytesOf(const scene::Patch& patch) {
   return bytes;
 }
 
+/// What the disk would give back. Light is stored in 16 bits; a fit must not depend on where its samples came from.
+template <typename T>
+T asStored(const T& value) {
+  auto stored = fromPayload<T>(payloadOf(value));
+  SWARD_CHECK(stored.has_value());
+  return std::move(*stored);
+}
+
 std::string lightName(LayerSet set, std::size_t light) {
   return std::string(trace::layerSetName(set)) + ", light " + std::to_string(light + 1);
 }
@@ -223,7 +231,9 @@ Result<std::shared_ptr<const trace::LayerVisibility>> Session::visibility(LayerS
                                       [&](const JobContext& job) -> Result<trace::LayerVisibility> {
                                         SWARD_ASSIGN(const auto found, hits(set));
                                         SWARD_ASSIGN(const trace::PatchScene* traced, scene());
-                                        return trace::sampleVisibility(*traced, *found, m_project.sampling, job);
+                                        SWARD_ASSIGN(const trace::LayerVisibility sampled,
+                                                     trace::sampleVisibility(*traced, *found, m_project.sampling, job));
+                                        return asStored(sampled);
                                       });
 }
 
@@ -232,7 +242,9 @@ Result<std::shared_ptr<const trace::LayerLuminance>> Session::luminance(LayerSet
                                      [&](const JobContext& job) -> Result<trace::LayerLuminance> {
                                        SWARD_ASSIGN(const auto found, hits(set));
                                        SWARD_ASSIGN(const trace::PatchScene* traced, scene());
-                                       return trace::sampleLuminance(*traced, *found, m_lights[light], job);
+                                       SWARD_ASSIGN(const trace::LayerLuminance sampled,
+                                                    trace::sampleLuminance(*traced, *found, m_lights[light], job));
+                                       return asStored(sampled);
                                      });
 }
 

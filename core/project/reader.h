@@ -1,5 +1,6 @@
 #pragma once
 
+#include "project/nearest.h"
 #include "project/schema.h"
 #include "project/words.h"
 
@@ -14,10 +15,6 @@
 namespace sward::project {
 
 using Json = nlohmann::ordered_json;
-
-/// The name of `known` that a person may have meant by `given`: the nearest by edit distance (case ignored), or empty
-/// when none is near.
-std::string nearestName(std::string_view given, const std::vector<std::string>& known);
 
 /// "a number", "text", ... for messages.
 std::string typeName(const Json& json);

@@ -1,6 +1,6 @@
 #include "project/project.h"
 
-#include "project/reader.h"
+#include "project/nearest.h"
 
 namespace sward::project {
 namespace {

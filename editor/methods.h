@@ -1,0 +1,21 @@
+#pragma once
+
+#include "base/result.h"
+#include "lpt/options.h"
+#include "project/project.h"
+#include "render/options.h"
+
+#include <string>
+#include <vector>
+
+namespace sward::editor {
+
+/// Sets what --method names in a project: how the ground is drawn (march, blended, blended_paper) and what its light
+/// response is fitted with (lpt8, lpt16, lpt_paper, ptm8, ptm16). One of each kind at most, in any order, repeated or
+/// separated by commas.
+Result<void> applyMethods(const std::vector<std::string>& methods, project::Project& project);
+
+/// "march, blended, ..." for help.
+std::string methodNames();
+
+}  // namespace sward::editor

@@ -8,12 +8,14 @@ namespace sward::render {
 namespace {
 
 // The same as in shaders/ground/constants.glsl.
-constexpr double kSlicesFrom = 0.50, kSlicesAll = 0.80;
+constexpr double kSlicesFrom = 0.84, kSlicesAll = 1.0;
 constexpr double kDiagonalFade = 0.05;
 constexpr double kSunDiscGain = 60.0;
 
 constexpr unsigned kSlices = 1, kBladesX = 2, kBladesY = 4;
-constexpr double kNoiseSide = 256.0;
+/// Rays under the horizon by less than this may meet the sky within their pixel.
+constexpr double kHorizonMargin = 0.004;
+constexpr double kMacroFadePixels = 2.0;  ///< of the macro scale to a pixel where it has faded out
 
 double smoothstep(double low, double high, double x) {
   const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
@@ -96,20 +98,18 @@ void setPlace(gpu::Program& program, const PassInput& input, const Frame& frame)
   const double side = ground.tileSideM();
   const glm::dvec2 eye = glm::dvec2(frame.camera.position) / side;
   const glm::dvec2 cell = glm::floor(eye);
-  const double perM = 1.0 / std::max(frame.options.macroScaleM, 1e-3);
+  const double pixelAngle = 2.0 * frame.camera.tanHalfWidth / frame.width;
   setIfUsed(program, "u_eyeTiles", glm::vec2(eye - cell));
   setIfUsed(program, "u_eyeM", static_cast<float>(std::max(frame.camera.position.z, 1e-3)));
   setIfUsed(program, "u_tilesPerM", static_cast<float>(1.0 / side));
   setIfUsed(program, "u_heightM", static_cast<float>(std::max(ground.heightM, 1e-4)));
   setIfUsed(program, "u_mapSize", glm::vec2(ground.map.width, ground.map.height));
+  setIfUsed(program, "u_mapInverse", 1.0f / glm::vec2(ground.map.width, ground.map.height));
   setIfUsed(program, "u_mapOffset",
             glm::vec2(positiveModulo(cell.x + ground.map.width / 2, ground.map.width),
                       positiveModulo(cell.y + ground.map.height / 2, ground.map.height)));
-  setIfUsed(program, "u_noisePerM", static_cast<float>(perM));
-  setIfUsed(
-      program, "u_noiseOffset",
-      glm::vec2(positiveModulo(cell.x * side * perM, kNoiseSide), positiveModulo(cell.y * side * perM, kNoiseSide)));
-  setIfUsed(program, "u_macroVariation", static_cast<float>(frame.options.macroVariation));
+  setIfUsed(program, "u_macroFadePerM",
+            static_cast<float>(kMacroFadePixels * pixelAngle / std::max(frame.options.macroScaleM, side)));
 }
 
 void setSets(gpu::Program& program, const PassInput& input) {
@@ -142,7 +142,8 @@ void setLight(gpu::Program& program, const PassInput& input, const Frame& frame,
   setIfUsed(program, "u_relightScale", static_cast<float>(input.relit->scale()));
   setIfUsed(program, "u_cosTheta0", static_cast<float>(cosTheta0(frame.options)));
   setIfUsed(program, "u_exposure", static_cast<float>(frame.exposure * weight));
-  setIfUsed(program, "u_hazePerM", static_cast<float>(input.hazePerM));
+  // The shader raises 1/2 to it.
+  setIfUsed(program, "u_hazePerM", static_cast<float>(input.hazePerM / std::numbers::ln2));
   setIfUsed(program, "u_sunDirection", glm::vec3(input.sunDirection));
   setIfUsed(program, "u_sunDisc", glm::vec3(input.sunIrradiance * kSunDiscGain));
 }
@@ -152,12 +153,12 @@ void bindTextures(gpu::Program& program, const PassInput& input, const gpu::Text
   setIfUsed(program, "t_relit", 1);
   setIfUsed(program, "t_map", 2);
   setIfUsed(program, "t_sky", 3);
-  setIfUsed(program, "t_noise", 4);
+  setIfUsed(program, "t_horizon", 4);
   blocks.bind(0);
   input.relit->relit().bind(1);
   input.map->bind(2);
   input.sky->bind(3);
-  input.noise->bind(4);
+  input.horizon->bind(4);
 }
 
 }  // namespace
@@ -169,18 +170,19 @@ BlockPlan planBlocks(const Frame& frame, const bake::GroundBake& ground, bool ha
   BlockPlan plan;
   for (int y = 0; y < frame.height; y += BlockPlan::kBlock) {
     for (int x = 0; x < frame.width; x += BlockPlan::kBlock) {
-      unsigned families = 0;
+      unsigned needs = 0;
       for (int probe = 0; probe < (kProbes + 1) * (kProbes + 1); ++probe) {
         const double px = x - 2.0 + (BlockPlan::kBlock + 4.0) * (probe % (kProbes + 1)) / kProbes;
         const double py = y - 2.0 + (BlockPlan::kBlock + 4.0) * (probe / (kProbes + 1)) / kProbes;
         const glm::dvec3 d = frame.camera.rayDirection(px / frame.width, 1.0 - py / frame.height, aspect);
+        if (d.z > -kHorizonMargin) needs |= BlockPlan::kSky;
         if (d.z >= 0.0 && !inside) continue;
         const unsigned needed = hasBlades ? familiesOf(d, frame.options) : kSlices;
-        families |= needed;
+        needs |= needed;
         plan.sets |= facingSets(d, needed);
         plan.sets.set(kSliceSet);  // slices, or the soil alone
       }
-      plan.blocks[families].push_back(static_cast<std::uint32_t>(x) | (static_cast<std::uint32_t>(y) << 16));
+      plan.blocks[needs].push_back(static_cast<std::uint32_t>(x) | (static_cast<std::uint32_t>(y) << 16));
     }
   }
   return plan;
@@ -192,14 +194,16 @@ GroundPass GroundPass::create() {
   return pass;
 }
 
-Result<gpu::Program*> GroundPass::variant(ProgramCache& programs, GroundMethod method, std::size_t families) const {
-  if (families == 0) return programs.blocks("ground/sky.frag", {}, {"t_blocks", "t_sky", "u_sunDisc", "u_exposure"});
+Result<gpu::Program*> GroundPass::variant(ProgramCache& programs, GroundMethod method, unsigned needs) const {
+  if (needs == BlockPlan::kSky)
+    return programs.blocks("ground/sky.frag", {}, {"t_blocks", "t_sky", "u_sunDisc", "u_exposure"});
   const std::string file = method == GroundMethod::March ? "ground/march.frag" : "ground/blended.frag";
-  Defines defines{{"SWARD_FAMILIES", std::to_string(families)}};
+  Defines defines{{"SWARD_FAMILIES", std::to_string(needs & (BlockPlan::kSky - 1))},
+                  {"SWARD_SKY", (needs & BlockPlan::kSky) != 0 ? "1" : "0"}};
   if (method != GroundMethod::March)
     defines.emplace_back("SWARD_PAPER_WEIGHTS", method == GroundMethod::BlendedPaper ? "1" : "0");
   return programs.blocks(file, defines,
-                         {"t_blocks", "t_relit", "t_map", "t_sky", "u_exposure", "u_eyeTiles", "u_heightM",
+                         {"t_blocks", "t_relit", "t_map", "t_horizon", "u_exposure", "u_eyeTiles", "u_heightM",
                           "u_relightScale", "u_hazePerM", "u_mapOffset"});
 }
 
@@ -216,10 +220,10 @@ Result<void> GroundPass::draw(ProgramCache& programs, const PassInput& input, co
   gpu::gl().Viewport(0, 0, frame.width, frame.height);
   m_vertices.bind();
   std::size_t first = 0;
-  for (std::size_t families = 0; families < plan.blocks.size(); ++families) {
-    const std::size_t count = plan.blocks[families].size();
+  for (unsigned needs = 0; needs < plan.blocks.size(); ++needs) {
+    const std::size_t count = plan.blocks[needs].size();
     if (count == 0) continue;
-    SWARD_ASSIGN(gpu::Program * program, variant(programs, frame.options.method, families));
+    SWARD_ASSIGN(gpu::Program * program, variant(programs, frame.options.method, needs));
     program->use();
     bindTextures(*program, input, m_blocksView);
     program->set("u_firstBlock", static_cast<int>(first));

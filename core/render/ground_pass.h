@@ -15,20 +15,21 @@ namespace sward::render {
 struct PassInput {
   const bake::GroundBake* ground = nullptr;
   const RelitGround* relit = nullptr;
-  const gpu::Texture* map = nullptr;    ///< tile indices, R8UI
-  const gpu::Texture* sky = nullptr;    ///< makeSkyTexture
-  const gpu::Texture* noise = nullptr;  ///< makeNoiseTexture
+  const gpu::Texture* map = nullptr;      ///< makeMacroMap as a buffer, R32UI
+  const gpu::Texture* sky = nullptr;      ///< makeSkyTexture
+  const gpu::Texture* horizon = nullptr;  ///< makeHorizonBuffer, RGBA32F
   glm::dvec3 sunDirection{0.0, 0.0, 1.0};
   glm::dvec3 sunIrradiance{0.0};
   double hazePerM = 0.0;
 };
 
-/// The blocks of a frame, sorted by the families of planes that their rays need: bit 0 slices, 1 blades normal to x, 2
-/// blades normal to y; 0 is sky alone.
+/// The blocks of a frame, sorted by what their rays need: bits of families of planes (1 slices, 2 blades normal to x, 4
+/// blades normal to y) and of the sky; without families a block is sky alone.
 struct BlockPlan {
-  static constexpr int kBlock = 64;                  ///< pixels along a side: the tile of Mesa's software rasteriser
-  std::array<std::vector<std::uint32_t>, 8> blocks;  ///< x | y << 16 of the lower left pixel, by families
-  SetMask sets;                                      ///< relit sets that the frame reads
+  static constexpr int kBlock = 64;  ///< pixels along a side: the tile of Mesa's software rasteriser
+  static constexpr unsigned kSky = 8;
+  std::array<std::vector<std::uint32_t>, 16> blocks;  ///< x | y << 16 of the lower left pixel, by needs
+  SetMask sets;                                       ///< relit sets that the frame reads
 };
 BlockPlan planBlocks(const Frame& frame, const bake::GroundBake& ground, bool hasBlades);
 
@@ -42,7 +43,7 @@ class GroundPass {
                     int sample, double weight);
 
  private:
-  Result<gpu::Program*> variant(ProgramCache& programs, GroundMethod method, std::size_t families) const;
+  Result<gpu::Program*> variant(ProgramCache& programs, GroundMethod method, unsigned needs) const;
   gpu::VertexArray m_vertices;
   gpu::Buffer m_blocks;
   gpu::Texture m_blocksView;

@@ -57,9 +57,10 @@ Result<void> checkSlices(const bake::GroundBake& ground) {
   if (ground.soil.layers != 1) return misfit("the soil has several layers");
   if (ground.tiles.resolution < 2 || ground.tiles.resolution % 2 != 0) return misfit("a tile has an odd side");
   const tiles::TileMap& map = ground.map;
-  if (map.width < 1 || map.height < 1 ||
+  // Shaders count cells in floats, which are exact up to 2^24.
+  if (map.width < 1 || map.height < 1 || map.height > (1 << 24) / map.width ||
       map.tiles.size() != static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height))
-    return misfit("the tile map is empty");
+    return misfit("the tile map is empty, or has more than 2^24 cells");
   if (std::any_of(map.tiles.begin(), map.tiles.end(), [&](std::uint8_t tile) { return tile >= tiles; }))
     return misfit("the tile map names a tile that is not there");
   return {};
@@ -206,7 +207,7 @@ Result<RelitGround> RelitGround::create(const bake::GroundBake& ground) {
                          "ground", "Use fewer tiles or layers, or smaller ones.");
   out.m_brightest = std::max(most, 1e-3f);
   out.m_relit = gpu::Buffer(texels * 4);
-  out.m_relitView = gpu::Texture::ofBuffer(GL_RGBA8, out.m_relit);
+  out.m_relitView = gpu::Texture::ofBuffer(GL_R32UI, out.m_relit);
   out.setIllumination(lpt::Illumination{});
   return out;
 }

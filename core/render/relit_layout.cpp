@@ -5,13 +5,9 @@
 namespace sward::render {
 
 LevelShape SetLayout::level(int level) const {
-  const int vertical = std::min(level, verticalLevels);
-  LevelShape shape{width >> level, height >> vertical, 0};
-  const auto area = [&](int l) {
-    return static_cast<std::size_t>(width >> l) * static_cast<std::size_t>(height >> std::min(l, verticalLevels));
-  };
-  for (int l = 0; l < level; ++l) shape.offset += static_cast<std::size_t>(planes()) * area(l);
-  return shape;
+  const auto area = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  const std::size_t offset = 2 * static_cast<std::size_t>(planes()) * (area - (area >> level));
+  return {width >> level, height >> std::min(level, verticalLevels), offset};
 }
 
 std::size_t SetLayout::texelCount() const {

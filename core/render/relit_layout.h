@@ -5,6 +5,7 @@
 namespace sward::render {
 
 /// Where one mip level of a relit set lies: its texels a plane, and its first texel counted from the set's start.
+/// Levels leave gaps, so that a shader finds them with a shift.
 struct LevelShape {
   int width = 0, height = 0;
   std::size_t offset = 0;

@@ -2,6 +2,7 @@
 
 #include "gpu/objects.h"
 #include "render/ground_pass.h"
+#include "render/macro_map.h"
 #include "render/programs.h"
 #include "render/relit_ground.h"
 #include "render/sky_map.h"
@@ -43,7 +44,9 @@ struct Renderer::Impl {
   gpu::Context& context;
   ProgramCache programs;
   GroundPass pass;
-  gpu::Texture map, sky, noise, target;
+  gpu::Buffer mapWords, horizonValues;
+  gpu::Texture map, sky, horizon, target;
+  std::optional<MacroSettings> macro;  ///< what mapWords was made with
   gpu::Framebuffer framebuffer;
   std::shared_ptr<const bake::GroundBake> ground;
   std::optional<RelitGround> relit;
@@ -68,12 +71,21 @@ struct Renderer::Impl {
     return {};
   }
 
+  void makeMap(const RenderOptions& options) {
+    const MacroSettings settings{options.macroVariation, options.macroScaleM};
+    if (macro == settings) return;
+    const auto words = makeMacroMap(ground->map, ground->tileSideM(), settings);
+    mapWords = gpu::Buffer(std::as_bytes(std::span(words)));
+    map = gpu::Texture::ofBuffer(GL_R32UI, mapWords);
+    macro = settings;
+  }
+
   PassInput input() const {
     return {ground.get(),
             &*relit,
             &map,
             &sky,
-            &noise,
+            &horizon,
             daylight->sunDirection(),
             daylight->sunIrradiance(),
             hazeKm > 0.0 ? 1.0 / (hazeKm * kMetresPerKilometre) : 0.0};
@@ -85,6 +97,7 @@ struct Renderer::Impl {
     SWARD_TRY(ready());
     const BlockPlan plan = planBlocks(frame, *ground, relit->hasBlades());
     SWARD_TRY(relit->relight(programs, plan.sets));
+    makeMap(frame.options);
     SWARD_TRY(bindTarget(frame.width, frame.height));
     const bool several = samples > 1;
     if (several) {
@@ -128,7 +141,6 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gpu::Context& context) {
   std::unique_ptr<Renderer> renderer(new Renderer());
   renderer->m_impl = std::make_unique<Impl>(context);
   renderer->m_impl->pass = GroundPass::create();
-  renderer->m_impl->noise = makeNoiseTexture();
   SWARD_TRY(context.checkErrors("renderer"));
   return renderer;
 }
@@ -139,8 +151,7 @@ Result<void> Renderer::setGround(std::shared_ptr<const bake::GroundBake> ground)
   if (!ground) return Error::failed("there is no ground", "render");
   impl.relit.reset();
   SWARD_ASSIGN(RelitGround relit, RelitGround::create(*ground));
-  impl.map = gpu::Texture::make2d(GL_R8UI, ground->map.width, ground->map.height);
-  impl.map.write(GL_RED_INTEGER, GL_UNSIGNED_BYTE, ground->map.tiles.data());
+  impl.macro.reset();
   SWARD_TRY(impl.context.checkErrors("uploading the ground"));
   impl.ground = std::move(ground);
   impl.relit = std::move(relit);
@@ -154,6 +165,8 @@ void Renderer::setDaylight(const scene::Daylight& daylight, double hazeKm) {
   impl.daylight = daylight;
   impl.hazeKm = hazeKm;
   impl.sky = makeSkyTexture(daylight);
+  impl.horizonValues = makeHorizonBuffer(daylight);
+  impl.horizon = gpu::Texture::ofBuffer(GL_RGBA32F, impl.horizonValues);
   if (impl.relit) impl.relit->setIllumination(illuminationOf(daylight));
 }
 

@@ -1,7 +1,5 @@
 #include "render/sky_map.h"
 
-#include "base/random.h"
-
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -9,8 +7,8 @@
 namespace sward::render {
 namespace {
 
-constexpr int kSkyColumns = 256, kSkyRows = 128;  ///< kSkyRows also in shaders/ground/sky.glsl
-constexpr int kNoiseSide = 256;
+constexpr int kSkyColumns = 256, kSkyRows = 128;  ///< kSkyRows and kHorizonTexels also in constants.glsl
+constexpr int kHorizonTexels = 512;
 
 /// Inverse of diamondAngle() of sky.glsl: a horizontal unit vector.
 glm::dvec2 fromDiamondAngle(double u) {
@@ -42,14 +40,16 @@ gpu::Texture makeSkyTexture(const scene::Daylight& daylight) {
   return texture;
 }
 
-gpu::Texture makeNoiseTexture() {
-  constexpr std::uint64_t kSeed = 0x5eed;
-  std::vector<std::uint8_t> pixels(static_cast<std::size_t>(kNoiseSide * kNoiseSide) * 2);
-  for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = static_cast<std::uint8_t>(base::mix64(kSeed, i) >> 56);
-  gpu::Texture texture = gpu::Texture::make2d(GL_RG8, kNoiseSide, kNoiseSide);
-  texture.write(GL_RG, GL_UNSIGNED_BYTE, pixels.data());
-  texture.setLinear(true, true);
-  return texture;
+gpu::Buffer makeHorizonBuffer(const scene::Daylight& daylight) {
+  // One entry more than the shader's kHorizonTexels: its jitter may reach the one that closes the circle.
+  std::vector<float> values;
+  for (int i = 0; i <= kHorizonTexels; ++i) {
+    const glm::dvec2 azimuth = fromDiamondAngle(static_cast<double>(i) / kHorizonTexels - 0.25);
+    const glm::dvec3 radiance = daylight.skyRadiance({azimuth.x, azimuth.y, 0.0});
+    for (int c = 0; c < 3; ++c) values.push_back(static_cast<float>(radiance[c]));
+    values.push_back(1.0f);
+  }
+  return gpu::Buffer(std::as_bytes(std::span(values)));
 }
 
 }  // namespace sward::render

@@ -9,7 +9,7 @@ namespace sward::render {
 /// direction's height, row 0 the horizon.
 gpu::Texture makeSkyTexture(const scene::Daylight& daylight);
 
-/// 256 x 256 random pairs for the macro variation, repeating, linearly filtered.
-gpu::Texture makeNoiseTexture();
+/// The horizon's radiance by the azimuth's diamond angle from -1/4 on, RGBA floats, for the haze.
+gpu::Buffer makeHorizonBuffer(const scene::Daylight& daylight);
 
 }  // namespace sward::render

@@ -5,12 +5,15 @@ const float kTransmittanceEnd = 0.02;  // a ray with less left is opaque
 const int kMaxSteps = 160;           // planes that a ray may cross
 const float kHeightSteps = 20.0;     // distant rays take at least this many steps through the shell's height
 const float kNearestBladeM = 0.12;   // blades nearer than this to the eye are left out
-const float kLevelBias = -0.25;      // of mip levels, in levels: below 0 sharper
+// A ray's mip level is that of a point this share of its way through the shell, at most so far into it.
+const float kLevelShare = 0.3;
+const float kLevelReachM = 1.0;
+const float kLevelBias = 0.9;        // on footprints: below 1 sharper
 const float kSoilLevelSlant = 0.5;   // how much of the slant a soil texel's level takes
 
 // Where slices give way to blades: shares of cos(theta0) that |N.E| is compared with (C++).
-const float kSlicesFrom = 0.50;
-const float kSlicesAll = 0.80;
+const float kSlicesFrom = 0.84;
+const float kSlicesAll = 1.0;
 // Half the width of the cross-fade between blades normal to x and to y, in |dx| / (|dx| + |dy|) (C++).
 const float kDiagonalFade = 0.05;
 
@@ -19,3 +22,8 @@ const float kSunLimbRad = 0.0007;      // soft edge
 const float kSunDiscGain = 60.0;       // the disc's radiance over the sun's irradiance, far under the real 14700
 
 const float kHueVariation = 0.35;      // of the macro variation, how much tilts from green to yellow
+
+// Sizes of the sky's textures, also in core/render/sky_map.cpp.
+const float kSkyRows = 128.0;
+const float kHorizonTexels = 512.0;
+const float kHalf = 0.5;

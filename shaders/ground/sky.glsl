@@ -6,17 +6,13 @@ uniform vec3 u_sunDisc;       // radiance of the disc; 0 below the horizon
 
 float diamondAngle(vec2 xy) {
   float p = xy.x / max(abs(xy.x) + abs(xy.y), 1e-9);
-  return xy.y >= 0.0 ? 0.25 * p : 0.5 - 0.25 * p;
+  return xy.y >= 0.0 ? 0.25 * p : 0.5 - 0.25 * p;  // in [-1/4, 3/4]
 }
 
-const float kSkyRows = 128.0;
-
-vec3 skyAt(vec2 azimuth, float height) {
-  float v = (sqrt(max(height, 0.0)) * (kSkyRows - 1.0) + 0.5) / kSkyRows;  // row 0 is the horizon itself
-  return textureLod(t_sky, vec2(diamondAngle(azimuth), v), 0.0).rgb;
+vec3 skyRadiance(vec3 d) {
+  float v = (sqrt(max(d.z, 0.0)) * (kSkyRows - 1.0) + 0.5) / kSkyRows;  // row 0 is the horizon itself
+  return textureLod(t_sky, vec2(diamondAngle(d.xy), v), 0.0).rgb;
 }
-vec3 skyRadiance(vec3 d) { return skyAt(d.xy, d.z); }
-vec3 horizonRadiance(vec3 d) { return skyAt(d.xy, 0.0); }
 
 vec3 sunDisc(vec3 d) {
   // The chord: accurate for small angles, where an arc cosine is not.

@@ -7,12 +7,8 @@ uniform float u_relightScale;
 uniform float u_cosTheta0;
 uniform float u_exposure;
 uniform float u_hazePerM;      // extinction of aerial perspective
-uniform sampler2D t_noise;
-uniform vec2 u_noiseOffset;    // lattice points at the local cell
-uniform float u_noisePerM;     // noise lattice points a metre
-uniform float u_macroVariation;
-
-const float kFamilySlices = 0.0, kFamilyX = 1.0, kFamilyY = 2.0;
+uniform float u_macroFadePerM;  // 1 / distance at which a pixel covers the macro variation
+uniform samplerBuffer t_horizon;  // sky radiance at the horizon by the azimuth's diamond angle
 
 // Weights of slices, blades normal to x and to y; they sum to 1 over the families that this variant draws.
 vec3 familyWeights(vec3 d) {
@@ -32,20 +28,17 @@ vec3 familyWeights(vec3 d) {
   return w / max(w.x + w.y + w.z, 1e-6);
 }
 
-// Smooth brightness and hue over metres, fading where a pixel covers a lattice cell.
-vec3 macroTint(vec2 xyM, float footprintM) {
-  vec2 place = xyM * u_noisePerM + u_noiseOffset;
-  float fade = clamp(1.5 - footprintM * u_noisePerM, 0.0, 1.0);
-  const float kPeriod = 256.0;
-  vec2 f = fract(place);
-  vec2 smoothed = floor(place) + f * f * (3.0 - 2.0 * f);
-  vec2 n = textureLod(t_noise, (smoothed + 0.5) / kPeriod, 0.0).rg;
-  float amount = 2.0 * u_macroVariation * fade;
-  vec2 v = (n - 0.5) * amount;
+// Smooth brightness and hue over metres, from the upper bytes of the map's cells (render/macro_map.h), 128 the mean;
+// fading where a pixel covers its waves. Cells differ little, a jittered place blends them.
+vec3 macroTint(vec2 tiles, float distanceM, vec3 random) {
+  uint word = mapWord(floor(tiles + random.yx - 0.5));
+  float fade = max(1.0 - distanceM * u_macroFadePerM, 0.0) / 128.0;
+  vec2 v = (vec2(float((word >> 8) & 0xffu), float((word >> 16) & 0xffu)) - 128.0) * fade;
   return (1.0 + v.x) * vec3(1.0 + kHueVariation * v.y, 1.0, 1.0 - 2.0 * kHueVariation * v.y);
 }
 
-vec3 throughHaze(vec3 radiance, vec3 d, float distanceM) {
-  float clear = exp2(-u_hazePerM * distanceM * 1.44269504);
-  return mix(horizonRadiance(d), radiance, clear);
+vec3 throughHaze(vec3 radiance, vec3 d, float distanceM, float random) {
+  float clear = fastPower(kHalf, u_hazePerM * distanceM);
+  vec3 horizon = texelFetch(t_horizon, int((diamondAngle(d.xy) + 0.25) * kHorizonTexels + random)).rgb;
+  return mix(horizon, radiance, clear);
 }

@@ -4,7 +4,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 0) writeonly buffer Relit { uint b_relit[]; };
-uniform samplerBuffer t_relit;
+uniform usamplerBuffer t_relit;
 
 uniform ivec2 u_outSize;  // of the coarsest level
 uniform int u_outBase;
@@ -19,7 +19,7 @@ void main() {
   int within = texel.y * u_outSize.x + texel.x;
   vec4 sum = vec4(0.0);
   for (int tile = 0; tile < u_tiles; ++tile) {
-    vec4 relit = decodeRelit(texelFetch(t_relit, u_outBase + (tile * u_outLayers + layer) * area + within));
+    vec4 relit = decodeRelit(texelFetch(t_relit, u_outBase + (tile * u_outLayers + layer) * area + within).r);
     sum += vec4(relit.rgb * relit.a, relit.a);
   }
   b_relit[u_outBase + (u_tiles * u_outLayers + layer) * area + within] =

@@ -3,7 +3,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 0) writeonly buffer Relit { uint b_relit[]; };
-uniform samplerBuffer t_relit;
+uniform usamplerBuffer t_relit;
 
 uniform ivec2 u_fineSize;
 uniform ivec2 u_outSize;
@@ -20,7 +20,7 @@ void main() {
     for (int x = 0; x < factor.x; ++x) {
       ivec2 fine = texel * factor + ivec2(x, y);
       vec4 relit =
-          decodeRelit(texelFetch(t_relit, u_fineBase + (plane * u_fineSize.y + fine.y) * u_fineSize.x + fine.x));
+          decodeRelit(texelFetch(t_relit, u_fineBase + (plane * u_fineSize.y + fine.y) * u_fineSize.x + fine.x).r);
       sum += vec4(relit.rgb * relit.a, relit.a);
     }
   }

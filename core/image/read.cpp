@@ -2,6 +2,7 @@
 
 #include "image/colour.h"
 #include "image/io_common.h"
+#include "image/png_check.h"
 
 #include "base/file.h"
 
@@ -125,6 +126,7 @@ Result<Image> readImage(std::span<const std::byte> data, const std::string& name
   if (format == nullptr) {
     return Error::badInput(unsupportedText(data), name, "Convert it to PNG, JPEG, EXR, HDR or TIFF.");
   }
+  if (format == std::string_view("png")) SWARD_TRY(checkPng(data, name));
   return withoutExceptions(name, kDamagedRemedy,
                            [&]() -> Result<Image> { return decode(data, format, name, encoding); });
 }

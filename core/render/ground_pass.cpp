@@ -1,5 +1,7 @@
 #include "render/ground_pass.h"
 
+#include "render/macro_map.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,8 +10,8 @@ namespace sward::render {
 namespace {
 
 // The same as in shaders/ground/constants.glsl.
-constexpr double kSlicesFrom = 0.84, kSlicesAll = 1.0;
-constexpr double kDiagonalFade = 0.05;
+constexpr double kSlicesFrom = 1.0, kSlicesAll = 1.1;
+constexpr double kDiagonalFade = 0.02;
 constexpr double kSunDiscGain = 60.0;
 
 constexpr unsigned kSlices = 1, kBladesX = 2, kBladesY = 4;
@@ -104,6 +106,8 @@ void setPlace(gpu::Program& program, const PassInput& input, const Frame& frame)
   setIfUsed(program, "u_tilesPerM", static_cast<float>(1.0 / side));
   setIfUsed(program, "u_heightM", static_cast<float>(std::max(ground.heightM, 1e-4)));
   setIfUsed(program, "u_mapSize", glm::vec2(ground.map.width, ground.map.height));
+  setIfUsed(program, "u_mapBorder", static_cast<float>(kMapBorder));
+  setIfUsed(program, "u_mapStride", static_cast<float>(ground.map.width + 2 * kMapBorder));
   setIfUsed(program, "u_mapInverse", 1.0f / glm::vec2(ground.map.width, ground.map.height));
   setIfUsed(program, "u_mapOffset",
             glm::vec2(positiveModulo(cell.x + ground.map.width / 2, ground.map.width),
@@ -131,6 +135,8 @@ void setSets(gpu::Program& program, const PassInput& input) {
   setIfUsed(program, "u_bladeVerticalLevels", blades.verticalLevels);
   setIfUsed(program, "u_bladePlanes", blades.planes());
   setIfUsed(program, "u_slabs", relit.slabsOfTile());
+  setIfUsed(program, "u_slabsInverse", 1.0f / static_cast<float>(relit.slabsOfTile()));
+  setIfUsed(program, "u_slabsPerM", static_cast<float>(relit.slabsOfTile() / side));
   setIfUsed(program, "u_bladesPerM", static_cast<float>(std::sqrt(blades.width / side * rowsPerM)));
   if (!program.has("u_bladeBase")) return;
   std::array<unsigned, 4> bases{};

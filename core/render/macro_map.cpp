@@ -59,8 +59,23 @@ std::vector<float> noise(int width, int height, double pointsPerCell, double str
   return out;
 }
 
+int wrapped(int i, int period) {
+  return (i % period + period) % period;
+}
+
 std::uint32_t deviationByte(float deviation) {
   return static_cast<std::uint32_t>(std::lround(std::clamp(128.0f * (1.0f + deviation), 0.0f, 255.0f)));
+}
+
+std::vector<std::uint32_t> withBorder(const std::vector<std::uint32_t>& words, int width, int height) {
+  std::vector<std::uint32_t> out;
+  out.reserve(static_cast<std::size_t>(width + 2 * kMapBorder) * static_cast<std::size_t>(height + 2 * kMapBorder));
+  for (int y = -kMapBorder; y < height + kMapBorder; ++y) {
+    const std::size_t row = static_cast<std::size_t>(wrapped(y, height)) * static_cast<std::size_t>(width);
+    for (int x = -kMapBorder; x < width + kMapBorder; ++x)
+      out.push_back(words[row + static_cast<std::size_t>(wrapped(x, width))]);
+  }
+  return out;
 }
 
 }  // namespace
@@ -72,7 +87,7 @@ std::vector<std::uint32_t> makeMacroMap(const tiles::TileMap& map, double tileSi
   const auto hue = noise(map.width, map.height, pointsPerCell, settings.variation, 1);
   for (std::size_t i = 0; i < words.size(); ++i)
     words[i] |= (deviationByte(brightness[i]) << 8) | (deviationByte(hue[i]) << 16);
-  return words;
+  return withBorder(words, map.width, map.height);
 }
 
 }  // namespace sward::render

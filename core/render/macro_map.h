@@ -14,8 +14,11 @@ struct MacroSettings {
   bool operator==(const MacroSettings&) const = default;
 };
 
-/// The tile map as shaders read it: tile | brightness << 8 | hue << 16, row by row. Brightness and hue are smooth value
-/// noise over metres, a deviation of d stored as 128 (1 + d); it repeats with the map.
+/// Cells of the map's other side that are repeated round it, so that a ray need not wrap at every step.
+inline constexpr int kMapBorder = 64;
+
+/// The tile map with its border as shaders read it: tile | brightness << 8 | hue << 16, row by row. Brightness and hue
+/// are smooth value noise over metres, a deviation of d stored as 128 (1 + d); it repeats with the map.
 std::vector<std::uint32_t> makeMacroMap(const tiles::TileMap& map, double tileSideM, const MacroSettings& settings);
 
 }  // namespace sward::render

@@ -8,7 +8,8 @@ namespace sward::render {
 namespace {
 
 constexpr int kLeastBladeRows = 16;  ///< blades keep a height profile of this many rows at every distance
-constexpr int kGroup = 8;            ///< invocations along a side of a work group, as in the shaders
+constexpr int kMaxMapSide = 3900;
+constexpr int kGroup = 8;  ///< invocations along a side of a work group, as in the shaders
 /// A fit may overshoot the response's bound of 1; texels brighter than the scale are cut off.
 constexpr double kHeadroom = 1.15;
 
@@ -57,10 +58,10 @@ Result<void> checkSlices(const bake::GroundBake& ground) {
   if (ground.soil.layers != 1) return misfit("the soil has several layers");
   if (ground.tiles.resolution < 2 || ground.tiles.resolution % 2 != 0) return misfit("a tile has an odd side");
   const tiles::TileMap& map = ground.map;
-  // Shaders count cells in floats, which are exact up to 2^24.
-  if (map.width < 1 || map.height < 1 || map.height > (1 << 24) / map.width ||
+  // Shaders count the map's words, borders and all, in floats, which are exact up to 2^24.
+  if (map.width < 1 || map.height < 1 || map.width > kMaxMapSide || map.height > kMaxMapSide ||
       map.tiles.size() != static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height))
-    return misfit("the tile map is empty, or has more than 2^24 cells");
+    return misfit("the tile map is empty or longer than " + std::to_string(kMaxMapSide) + " cells");
   if (std::any_of(map.tiles.begin(), map.tiles.end(), [&](std::uint8_t tile) { return tile >= tiles; }))
     return misfit("the tile map names a tile that is not there");
   return {};

@@ -3,8 +3,9 @@
 const float kOpaque = 0.985;         // opacity of a texel of full coverage: finite, so that weights can fade it
 const float kTransmittanceEnd = 0.02;  // a ray with less left is opaque
 const int kMaxSteps = 160;           // planes that a ray may cross
+const int kMaxBlendedBlades = 64;    // of each direction that the blended methods composite
 const float kHeightSteps = 20.0;     // distant rays take at least this many steps through the shell's height
-const float kNearestBladeM = 0.12;   // blades nearer than this to the eye are left out
+const float kNearestM = 0.12;        // planes nearer than this to the eye are left out
 // A ray's mip level is that of a point this share of its way through the shell, at most so far into it.
 const float kLevelShare = 0.3;
 const float kLevelReachM = 1.0;
@@ -12,10 +13,10 @@ const float kLevelBias = 0.9;        // on footprints: below 1 sharper
 const float kSoilLevelSlant = 0.5;   // how much of the slant a soil texel's level takes
 
 // Where slices give way to blades: shares of cos(theta0) that |N.E| is compared with (C++).
-const float kSlicesFrom = 0.84;
-const float kSlicesAll = 1.0;
+const float kSlicesFrom = 1.0;
+const float kSlicesAll = 1.1;
 // Half the width of the cross-fade between blades normal to x and to y, in |dx| / (|dx| + |dy|) (C++).
-const float kDiagonalFade = 0.05;
+const float kDiagonalFade = 0.02;
 
 const float kSunDiscRad = 0.00465;     // angular radius
 const float kSunLimbRad = 0.0007;      // soft edge

@@ -2,6 +2,7 @@
 uniform vec2 u_eyeTiles;       // eye in tiles from the local cell
 uniform float u_eyeM;          // height over the ground
 uniform float u_tilesPerM;
+uniform float u_slabsPerM;
 uniform float u_heightM;       // of the shell
 uniform float u_relightScale;
 uniform float u_cosTheta0;
@@ -10,28 +11,127 @@ uniform float u_hazePerM;      // extinction of aerial perspective
 uniform float u_macroFadePerM;  // 1 / distance at which a pixel covers the macro variation
 uniform samplerBuffer t_horizon;  // sky radiance at the horizon by the azimuth's diamond angle
 
-// Weights of slices, blades normal to x and to y; they sum to 1 over the families that this variant draws.
-vec3 familyWeights(vec3 d) {
+// A ray's way through the shell. Distances count from where it starts to look, places from the stored map's corner.
+struct Walk {
+  vec2 place;       // in tiles, where it starts
+  vec2 slope;       // tiles a metre
+  float slopeZ;     // of the height, never 0
+  float path;       // 1 / |slopeZ|
+  float heightM;    // where it starts
+  float tEnter;     // from the eye to the shell; 0 inside
+  float tStart;     // from the eye to where it starts
+  float tEnd;       // to the soil or the shell's top; negative for rays that miss the shell
+  float footprint;  // of a pixel, a little way into the shell, metres
+};
+
+Walk startWalk(vec3 d) {
+  Walk walk;
+#if SWARD_SKY
+  walk.slopeZ = d.z < 0.0 ? min(d.z, -1e-5) : max(d.z, 1e-5);
+#else
+  walk.slopeZ = min(d.z, -1e-5);
+#endif
+  bool above = u_eyeM > u_heightM;
+  bool down = walk.slopeZ < 0.0;
+  float inverse = 1.0 / walk.slopeZ;
+  walk.path = abs(inverse);
+  walk.slope = d.xy * u_tilesPerM;
+  walk.tEnter = above && down ? (u_heightM - u_eyeM) * inverse : 0.0;
+  walk.tStart = max(walk.tEnter, kNearestM);
+  walk.tEnd = above && !down ? -1.0 : ((down ? 0.0 : u_heightM) - u_eyeM) * inverse - walk.tStart;
+  walk.heightM = u_eyeM + walk.slopeZ * walk.tStart;
+  walk.place = mapPlace(u_eyeTiles + walk.slope * walk.tStart);
+  walk.footprint = (walk.tEnter + min(kLevelShare * max(walk.tEnd, 0.0), kLevelReachM)) * u_pixelAngle;
+  return walk;
+}
+
+// Slices (x = 0) or blades (x = 1), and those normal to x (y = 0) or to y (y = 1): drawn by lot with the weights.
+ivec2 chooseFamily(vec3 d, float lot) {
   float steep = smoothstep(kSlicesFrom * u_cosTheta0, kSlicesAll * u_cosTheta0, abs(d.z));
   float towardX = abs(d.x) / max(abs(d.x) + abs(d.y), 1e-6);
   float x = smoothstep(0.5 - kDiagonalFade, 0.5 + kDiagonalFade, towardX);
-  vec3 w = vec3(steep, (1.0 - steep) * x, (1.0 - steep) * (1.0 - x));
 #if !(SWARD_FAMILIES & 1)
-  w.x = 0.0;
+  steep = 0.0;
 #endif
-#if !(SWARD_FAMILIES & 2)
-  w.y = 0.0;
+#if (SWARD_FAMILIES & 6) == 2
+  x = 1.0;
+#elif (SWARD_FAMILIES & 6) == 4
+  x = 0.0;
 #endif
-#if !(SWARD_FAMILIES & 4)
-  w.z = 0.0;
-#endif
-  return w / max(w.x + w.y + w.z, 1e-6);
+  bool slices = lot < steep;
+  float rest = (lot - steep) / max(1.0 - steep, 1e-6);
+  return ivec2(slices ? 0 : 1, rest < x ? 0 : 1);
+}
+
+// Planes of a family along a walk: distance of the next and between two, number of the next and its step, and the power
+// of the transmittance: path over slab thickness, times slabs in a step.
+struct Planes {
+  float t;
+  float stride;
+  float number;
+  float step;
+  float power;
+};
+
+Planes slicePlanes(Walk walk) {
+  float spacing = u_heightM / float(u_sliceLayers - 1);
+  float under = (u_heightM - walk.heightM) / spacing;  // slabs under the top
+  bool down = walk.slopeZ < 0.0;
+  Planes planes;
+  planes.stride = spacing * walk.path;
+  planes.step = down ? 1.0 : -1.0;
+  planes.number = down ? ceil(under - 0.5) : floor(under - 0.5);
+  planes.t = (planes.number + 0.5 - under) * planes.step * planes.stride;
+  planes.power = walk.path;
+  return planes;
+}
+
+// A walk through blades: its planes, where along them it starts and its slopes, the first texel of their level.
+struct BladeWalk {
+  Planes planes;
+  float place;
+  float slope;
+  float row;
+  float rowSlope;
+  int start;
+};
+
+BladeWalk startBlades(Walk walk, Level level, bool axisX, float random) {
+  float slope = axisX ? walk.slope.x : walk.slope.y;  // along the normal
+  float place = axisX ? walk.place.x : walk.place.y;
+  bool backward = slope < 0.0;
+  float rate = max(abs(slope), 1e-6) * float(u_slabs);  // slabs a metre
+  // Where the ray sinks by less than a pixel between two slabs, it may skip some.
+  float wanted = min(walk.tEnter * u_pixelAngle, u_heightM / kHeightSteps) * walk.path;
+  float slabs = max(1.0, floor(wanted * rate));
+  float at = place * float(u_slabs);
+  float ahead = backward ? at - floor(at - 0.5) - 0.5 : ceil(at - 0.5) + 0.5 - at;
+  ahead += floor(random * slabs);
+  BladeWalk blades;
+  blades.planes.step = backward ? -slabs : slabs;
+  blades.planes.stride = slabs / rate;
+  blades.planes.t = ahead / rate;
+  blades.planes.number = floor(backward ? at - ahead : at + ahead);
+  blades.planes.power = blades.planes.stride * u_slabsPerM;
+  blades.place = (axisX ? walk.place.y : walk.place.x) + level.jitter.x;
+  blades.slope = axisX ? walk.slope.y : walk.slope.x;
+  float rowsPerM = level.rows / u_heightM;
+  blades.row = walk.heightM * rowsPerM + level.jitter.y;
+  blades.rowSlope = walk.slopeZ * rowsPerM;
+  uint first = axisX ? (backward ? u_bladeBase[0] : u_bladeBase[1]) : (backward ? u_bladeBase[2] : u_bladeBase[3]);
+  blades.start = level.start + int(first);
+  return blades;
+}
+
+Level soilLevelOf(Walk walk, vec3 random, float levelJitter) {
+  float slant = mix(1.0, walk.path, kSoilLevelSlant);
+  return sliceLevel((walk.tStart + walk.tEnd) * u_pixelAngle * slant, random, levelJitter);
 }
 
 // Smooth brightness and hue over metres, from the upper bytes of the map's cells (render/macro_map.h), 128 the mean;
 // fading where a pixel covers its waves. Cells differ little, a jittered place blends them.
-vec3 macroTint(vec2 tiles, float distanceM, vec3 random) {
-  uint word = mapWord(floor(tiles + random.yx - 0.5));
+vec3 macroTint(vec2 place, float distanceM, vec3 random) {
+  uint word = mapWord(floor(place + random.yx - 0.5));
   float fade = max(1.0 - distanceM * u_macroFadePerM, 0.0) / 128.0;
   vec2 v = (vec2(float((word >> 8) & 0xffu), float((word >> 16) & 0xffu)) - 128.0) * fade;
   return (1.0 + v.x) * vec3(1.0 + kHueVariation * v.y, 1.0, 1.0 - 2.0 * kHueVariation * v.y);
@@ -41,4 +141,25 @@ vec3 throughHaze(vec3 radiance, vec3 d, float distanceM, float random) {
   float clear = fastPower(kHalf, u_hazePerM * distanceM);
   vec3 horizon = texelFetch(t_horizon, int((diamondAngle(d.xy) + 0.25) * kHorizonTexels + random)).rgb;
   return mix(horizon, radiance, clear);
+}
+
+// The picture of a ray that gathered `radiance` (over the relight scale) in the shell and has `left` of its
+// transmittance: soil or sky behind, macro variation, haze, exposure.
+vec4 finishGround(Walk walk, vec3 d, vec3 radiance, float left, Level soilLevel, vec3 random) {
+  Site site = sliceSite(soilLevel, u_sliceLayers - 1, walk.place + soilLevel.jitter + walk.slope * max(walk.tEnd, 0.0));
+  vec3 soil = storedColour(fetchSite(site, soilLevel.start, u_sliceLayers, soilLevel.area, soilLevel.mean));
+#if SWARD_SKY
+  bool soilSeen = walk.slopeZ < 0.0;
+#else
+  const bool soilSeen = true;
+#endif
+  radiance += soilSeen ? left * kColourUnit * soil : vec3(0.0);
+  vec3 grass = radiance * macroTint(walk.place, walk.tEnter, random) * u_relightScale;
+#if SWARD_SKY
+  // Rays that reach the sky start in the shell: what they crossed of it is too near for haze.
+  vec3 seen = soilSeen ? throughHaze(grass, d, walk.tEnter, random.x) : grass + left * (skyRadiance(d) + sunDisc(d));
+#else
+  vec3 seen = throughHaze(grass, d, walk.tEnter, random.x);
+#endif
+  return vec4(seen * u_exposure, 1.0);
 }

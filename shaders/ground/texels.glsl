@@ -3,10 +3,13 @@
 #include "include/layout.glsl"
 
 uniform usamplerBuffer t_relit;
-uniform usamplerBuffer t_map;   // tile | brightness << 8 | hue << 16, row by row from the south-west
+// tile | brightness << 8 | hue << 16, row by row from the south-west, the map's other side repeated as a border
+uniform usamplerBuffer t_map;
 uniform vec2 u_mapSize;
 uniform vec2 u_mapInverse;      // 1 / u_mapSize
 uniform vec2 u_mapOffset;       // map cell of local cell (0, 0)
+uniform float u_mapBorder;      // cells
+uniform float u_mapStride;      // cells in a row, with borders
 uniform int u_tiles;
 uniform float u_pixelAngle;     // width of a pixel at unit distance
 
@@ -21,6 +24,7 @@ uniform int u_bladeMaxLevel;
 uniform int u_bladeVerticalLevels;
 uniform int u_bladePlanes;
 uniform int u_slabs;            // of a tile
+uniform float u_slabsInverse;   // 1 / u_slabs
 uniform float u_bladesPerM;     // texels a metre
 uniform uint u_bladeBase[4];    // where the sets seen from +x, -x, +y, -y start
 
@@ -79,9 +83,8 @@ Level bladeLevel(float footprintM, vec3 random, float levelJitter) {
   return l;
 }
 
-// The slice texel of a layer at xy (in tiles).
-Site sliceSite(Level l, int layer, vec2 xy) {
-  vec2 place = xy + l.jitter;
+// The slice texel of a layer at a place in tiles, jittered already.
+Site sliceSite(Level l, int layer, vec2 place) {
   Site site;
   site.cell = floor(place);
   ivec2 texel = ivec2(min((place - site.cell) * l.columns, l.columns - 1.0));
@@ -90,27 +93,29 @@ Site sliceSite(Level l, int layer, vec2 xy) {
   return site;
 }
 
-// A blade texel: `across` counts slabs along the planes' normal, `along` tiles along the plane, `height` shell heights;
-// axisX says that the planes are normal to x.
-Site bladeSite(Level l, bool axisX, float across, float along, float height) {
-  float place = along + l.jitter.x;
-  float cellAlong = floor(place);
-  float cellAcross = floor((across + 0.5) / float(u_slabs));
-  int column = int(min((place - cellAlong) * l.columns, l.columns - 1.0));
-  int row = int(clamp(height * l.rows + l.jitter.y, 0.0, l.rows - 1.0));
+// A blade texel: `across` counts slabs along the planes' normal, `along` tiles along the plane and
+// `row` rows, both jittered already; axisX says that the planes are normal to x.
+Site bladeSite(Level l, bool axisX, float across, float along, float row) {
+  float cellAlong = floor(along);
+  float cellAcross = floor((across + 0.5) * u_slabsInverse);
+  int column = int(min((along - cellAlong) * l.columns, l.columns - 1.0));
   Site site;
   site.cell = axisX ? vec2(cellAcross, cellAlong) : vec2(cellAlong, cellAcross);
   site.plane = int(across - cellAcross * float(u_slabs));
-  site.within = row * l.width + column;
+  site.within = int(clamp(row, 0.0, l.rows - 1.0)) * l.width + column;
   return site;
 }
 
-// The map's word of a cell: the map repeats.
-uint mapWord(vec2 cell) {
-  vec2 place = cell + u_mapOffset;
-  place -= u_mapSize * floor((place + 0.5) * u_mapInverse);
-  return texelFetch(t_map, int(place.y * u_mapSize.x + place.x)).r;
+// A place in tiles from the local cell, moved by whole maps into the stored one: once a ray, which then walks on over
+// the border (a ray that leaves even that is opaque, or so distant that any tile will do).
+vec2 mapPlace(vec2 tiles) {
+  vec2 cell = floor(tiles);
+  vec2 wrapped = cell + u_mapOffset;
+  wrapped -= u_mapSize * floor((wrapped + 0.5) * u_mapInverse);
+  return tiles - cell + wrapped + u_mapBorder;
 }
+
+uint mapWord(vec2 cell) { return texelFetch(t_map, int(cell.y * u_mapStride + cell.x)).r; }
 
 // The stored texel at a site; `start` is where its level starts in the buffer.
 uint fetchSite(Site site, int start, int planesPerTile, int area, bool mean) {
@@ -138,4 +143,9 @@ float fastPower(float base, float power) {
   float g = fract(logarithm);
   float result = max(logarithm - 0.3372 * g * (1.0 - g) + 127.0, 0.0);
   return intBitsToFloat(int(result * kMantissa));
+}
+
+// (1 - opacity)^power for powers near 1: a second-order term in opacity times the power's distance from 1.
+float nearUnitPower(float opacity, float power) {
+  return (1.0 - opacity) * (1.0 - (power - 1.0) * opacity * (1.0 + opacity));
 }

@@ -4,7 +4,7 @@
 // on their coverage; SWARD_PAPER_WEIGHTS 0 divides them by their sum. No early end, no path lengths: what a blend of
 // textured planes gives. Texels are fetched and filtered as in the march. The planes of a set are those of the ground it
 // crosses, not one tile's, so that parallax is right and no plane ends; at most kMaxBlendedBlades of each direction are
-// composited, the nearest.
+// composited, the nearest. Where the march takes several slabs in a step, so do these, composited so many times.
 #include "ground/constants.glsl"
 #include "ground/view.glsl"
 #include "ground/sky.glsl"
@@ -16,8 +16,8 @@ out vec4 o_radiance;
 vec3 g_sum = vec3(0.0);
 float g_left = 1.0;
 
-void composite(uint stored, float weight) {
-  float opacity = min(weight, 1.0) * kCoverageUnit * storedCoverage(stored);
+void composite(uint stored, float weight, float times) {
+  float opacity = 1.0 - fastPower(1.0 - kOpaque * weight * kCoverageUnit * storedCoverage(stored), times);
   g_sum += g_left * opacity * storedColour(stored);
   g_left *= 1.0 - opacity;
 }
@@ -29,7 +29,7 @@ void compositeBlades(Walk walk, Level level, bool axisX, float weight, float ran
     if (planes.t >= walk.tEnd) break;
     Site site =
         bladeSite(level, axisX, planes.number, along.place + along.slope * planes.t, along.row + along.rowSlope * planes.t);
-    composite(fetchSite(site, along.start, u_slabs, level.area, level.mean), weight);
+    composite(fetchSite(site, along.start, u_slabs, level.area, level.mean), weight, abs(planes.step));
     planes.t += planes.stride;
     planes.number += planes.step;
   }
@@ -55,7 +55,7 @@ void main() {
   for (int i = 0; i < u_sliceLayers; ++i) {
     if (planes.t >= walk.tEnd) break;
     Site site = sliceSite(layered, int(planes.number), place + walk.slope * planes.t);
-    composite(fetchSite(site, layered.start, u_sliceLayers, layered.area, layered.mean), slices);
+    composite(fetchSite(site, layered.start, u_sliceLayers, layered.area, layered.mean), slices, 1.0);
     planes.t += planes.stride;
     planes.number += planes.step;
   }

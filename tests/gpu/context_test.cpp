@@ -11,8 +11,10 @@ namespace sward::gpu {
 namespace {
 
 class EveryDevice : public testing::TestWithParam<Device> {};
-INSTANTIATE_TEST_SUITE_P(Contexts, EveryDevice, testing::Values(Device::Egl, Device::OsMesa),
-                         [](const auto& info) { return info.param == Device::Egl ? "Egl" : "OsMesa"; });
+std::string deviceName(const testing::TestParamInfo<Device>& test) {
+  return test.param == Device::Egl ? "Egl" : "OsMesa";
+}
+INSTANTIATE_TEST_SUITE_P(Contexts, EveryDevice, testing::Values(Device::Egl, Device::OsMesa), deviceName);
 
 TEST_P(EveryDevice, MakesACoreContextThatSaysWhatItIs) {
   auto context = Context::create(GetParam());

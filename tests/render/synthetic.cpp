@@ -208,7 +208,11 @@ lpt::LayerStackInput soilInput(const SyntheticOptions& options) {
   soil.channels = 1;
   soil.coverage.assign(texels, 1.0f);
   soil.sky.assign(texels, glm::vec2(0.25f, 0.0f));
-  for (std::size_t i = 0; i < texels; ++i) {
+  for (std::size_t i = 0; i < texels && options.soilReflectance >= 0.0; ++i) {
+    soil.reflectance.emplace_back(static_cast<float>(options.soilReflectance));
+    for (const float b : {-0.05f, -0.05f, 0.0f, 0.0f, 0.0f, 0.5f}) soil.coefficients.push_back(b);
+  }
+  for (std::size_t i = 0; i < texels && options.soilReflectance < 0.0; ++i) {
     const float grain = base::unitFloat(base::mix64(options.seed, 5, i));
     soil.reflectance.push_back(glm::vec3(0.11f, 0.08f, 0.05f) * (0.7f + 0.6f * grain));
     for (const float b : {-0.05f, -0.05f, 0.0f, 0.01f * grain, 0.01f, 0.2f + 0.1f * grain})

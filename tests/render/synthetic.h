@@ -24,6 +24,7 @@ struct SyntheticOptions {
   int bits = 8;
   /// Above 0: an even medium of this coverage a slice layer, coverage of blade texels to match, instead of grass.
   double evenCoverage = 0.0;
+  double soilReflectance = -1.0;  ///< not negative: one grey, instead of grainy earth
   std::uint64_t seed = 1;
 };
 

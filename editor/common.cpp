@@ -47,7 +47,7 @@ std::string fixed(double value, int decimals) {
 CLI::App* addCommand(CLI::App& app, Program& program, const std::string& name, const std::string& description,
                      const std::string& footer) {
   CLI::App* command = app.add_subcommand(name, description);
-  command->footer(footer);
+  command->footer(footer + "\n");
   CommonOptions& common = program.common;
   const std::string group = "Options of every command";
   command

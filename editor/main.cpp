@@ -18,7 +18,7 @@ constexpr const char* kFooter =
     "  sward render projects/meadow.sward -o evening.png --sun 285,12\n"
     "  sward new field.sward --template meadow --grass my_grass.glb\n\n"
     "Exit codes: 0 done; 1 it failed; 2 the command or the project is wrong; 130 interrupted.\n"
-    "`sward COMMAND --help` shows a command's options.";
+    "`sward COMMAND --help` shows a command's options.\n";
 
 std::vector<std::string> commandNames(const CLI::App& app) {
   std::vector<std::string> names;

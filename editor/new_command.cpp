@@ -18,7 +18,19 @@ struct NewRequest {
 /// Files drawn in other units than metres are scaled to this height.
 constexpr double kUsualHeightM = 0.3;
 
-/// A plant from a mesh: its own metres where they are a grass's, and as many as fill the ground about twice over.
+/// Area of leaves over a unit of ground in a dense sward (one side).
+constexpr double kLeafAreaIndex = 3.0;
+
+double surfaceArea(const mesh::Model& model) {
+  double area = 0.0;
+  for (const glm::uvec3& triangle : model.triangles) {
+    const glm::dvec3 a = model.positions[triangle.x], b = model.positions[triangle.y], c = model.positions[triangle.z];
+    area += 0.5 * glm::length(glm::cross(b - a, c - a));
+  }
+  return area;
+}
+
+/// A plant from a mesh: its own metres where they are a grass's, and as many as make a dense sward.
 Result<project::Plant> plantFromMesh(const fs::path& mesh, const fs::path& projectFolder) {
   SWARD_ASSIGN(const mesh::Model model, mesh::readGltf(mesh));
   const mesh::Bounds box = mesh::bounds(model);
@@ -34,8 +46,8 @@ Result<project::Plant> plantFromMesh(const fs::path& mesh, const fs::path& proje
     plant.gltf.heightM = kUsualHeightM;
     scale = kUsualHeightM / std::max(size.z, 1e-9);
   }
-  const double footprintM2 = std::max(scale * size.x * scale * size.y, 1e-6);
-  plant.densityPerM2 = std::round(std::clamp(2.0 / footprintM2, 4.0, 1500.0));
+  const double areaM2 = std::max(scale * scale * surfaceArea(model), 1e-6);
+  plant.densityPerM2 = std::round(std::clamp(kLeafAreaIndex / areaM2, 4.0, 1500.0));
   plant.variants = 1;
   return plant;
 }
@@ -70,6 +82,7 @@ Result<int> runNew(Program& program, const NewRequest& request) {
   }
   SWARD_ASSIGN(project::Project project, project::fromTemplate(request.templateName));
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (file.has_stem()) project.name = file.stem().string();
   if (!request.grass.empty()) SWARD_TRY(useMesh(project, request.grass, folder));
   SWARD_ASSIGN(project, project::parse(project::toJson(project), file, program.common.overrides));
   SWARD_TRY(checkProject(program, project));

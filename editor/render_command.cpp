@@ -124,7 +124,7 @@ Result<RenderPlan> planRender(const Program& program, const RenderRequest& reque
 }
 
 struct RenderTimes {
-  double start = 0.0, bake = 0.0, upload = 0.0, relight = 0.0, draw = 0.0, write = 0.0;
+  double start = 0.0, bake = 0.0, upload = 0.0, draw = 0.0, write = 0.0;
 };
 
 Result<image::Image> drawPicture(Program& program, const RenderPlan& plan, gpu::Context& context,
@@ -133,8 +133,7 @@ Result<image::Image> drawPicture(Program& program, const RenderPlan& plan, gpu::
   SWARD_ASSIGN(const auto renderer, render::Renderer::create(context));
   SWARD_TRY(renderer->setGround(std::move(ground)));
   times.upload = watch.lap();
-  renderer->setDaylight(plan.daylight);
-  times.relight = watch.lap();
+  renderer->setDaylight(plan.daylight, plan.project.sky.hazeKm);
   if (program.interrupts.requested()) return Error::cancelled();
   const render::Frame frame{plan.camera, plan.project.output.width, plan.project.output.height, plan.exposure,
                             plan.project.render};
@@ -156,7 +155,6 @@ Json resultJson(const RenderPlan& plan, const gpu::DeviceInfo& device, const Ren
            {{"start", times.start},
             {"bake", times.bake},
             {"upload", times.upload},
-            {"relight", times.relight},
             {"draw", times.draw},
             {"write", times.write}}},
           {"bake", bakeJson(baked)}};
@@ -188,8 +186,8 @@ Result<int> runRender(Program& program, const RenderRequest& request) {
   }
   times.write = watch.lap();
   say(program, "drew view \"" + plan.view.name + "\" on " + context->info().api + " (" + context->info().renderer +
-                   "): relit in " + secondsText(times.relight) + ", " + std::to_string(plan.project.render.samples) +
-                   " samples in " + secondsText(times.draw));
+                   "): relit, and " + std::to_string(plan.project.render.samples) + " samples, in " +
+                   secondsText(times.draw));
   say(program, "wrote " + plan.output.string());
   if (program.common.json) print(resultJson(plan, context->info(), times, baked));
   return kDone;

@@ -121,6 +121,29 @@ TEST_F(BakeGraph, TheGroundHoldsWhatItShould) {
   EXPECT_LT(covered, static_cast<int>(ground.slices.texelCount()));
 }
 
+TEST_F(BakeGraph, TilesJoinThroughTheirAprons) {
+  const GroundBake& ground = *s_first.ground;
+  const lpt::LayerStack& slices = ground.slices;
+  const int size = ground.tiles.resolution, apron = ground.tiles.apron;
+  const auto column = [&](std::size_t tile, int x, int y) {
+    const auto side = static_cast<std::size_t>(slices.width);
+    return (tile * side + static_cast<std::size_t>(y + apron)) * side + static_cast<std::size_t>(x + apron);
+  };
+  int compared = 0;
+  for (std::size_t a = 0; a < ground.tiles.tiles.size(); ++a) {
+    for (std::size_t b = 0; b < ground.tiles.tiles.size(); ++b) {
+      if (ground.tiles.tiles[a].edges[tiles::kEast] != ground.tiles.tiles[b].edges[tiles::kWest]) continue;
+      // The first texel across the middle of the edge is the neighbour's own.
+      const std::size_t mine = column(a, size, size / 2), theirs = column(b, 0, size / 2);
+      for (std::size_t j = 0; j < 20; ++j) {
+        ASSERT_EQ(slices.coefficients[mine * 20 + j], slices.coefficients[theirs * 20 + j]) << a << ' ' << b;
+      }
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 18);
+}
+
 TEST_F(BakeGraph, ASecondBakeDoesNothing) {
   const Baked again = bakeFrom(s_folder->path(), smallProject());
   EXPECT_TRUE(bakedKinds(again.report).empty());

@@ -21,7 +21,7 @@ constexpr int kLuminanceVersion = 1;
 constexpr int kVisibilityVersion = 1;
 constexpr int kSurfaceVersion = 1;
 constexpr int kFitVersion = 1;
-constexpr int kTilesVersion = 1;
+constexpr int kTilesVersion = 2;
 constexpr int kStackVersion = 1;
 constexpr int kGroundVersion = 1;
 

@@ -10,7 +10,9 @@
 
 namespace sward::base {
 
-int threadCount(const JobContext& job) { return job.threads > 0 ? job.threads : tbb::info::default_concurrency(); }
+int threadCount(const JobContext& job) {
+  return job.threads > 0 ? job.threads : tbb::info::default_concurrency();
+}
 
 void parallelFor(const JobContext& job, std::size_t count, std::size_t grain,
                  const std::function<void(std::size_t, std::size_t)>& body) {
@@ -25,7 +27,8 @@ void parallelFor(const JobContext& job, std::size_t count, std::size_t grain,
     for (std::size_t block = 0; block < blocks; ++block) runBlock(block);
     return;
   }
-  tbb::task_arena arena(threadCount(job));
+  // More threads than cores would only make TBB complain: results do not depend on their number.
+  tbb::task_arena arena(std::min(threadCount(job), tbb::info::default_concurrency()));
   arena.execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, blocks, 1),

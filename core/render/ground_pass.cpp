@@ -10,8 +10,7 @@ namespace sward::render {
 namespace {
 
 // The same as in shaders/ground/constants.glsl.
-constexpr double kSlicesFrom = 1.0, kSlicesAll = 1.1;
-constexpr double kDiagonalFade = 0.02;
+constexpr double kDiagonalFade = 0.45;
 constexpr double kSunDiscGain = 60.0;
 
 constexpr unsigned kSlices = 1, kBladesX = 2, kBladesY = 4;
@@ -28,11 +27,27 @@ double cosTheta0(const RenderOptions& options) {
   return std::cos(std::clamp(options.bladeAngleDeg, 0.0, 89.0) * std::numbers::pi / 180.0);
 }
 
+/// |N.E| from which the march begins to draw slices, and from which it draws nothing else.
+struct SliceRange {
+  double from = 0.0;
+  double all = 1.0;
+};
+
+/// Blades serve while a ray crosses enough of their planes on its way through the shell: it meets height / (pitch tan
+/// e) of them at elevation e, and with few it looks between them, down to the dark. Never beyond theta0.
+SliceRange sliceRange(const bake::GroundBake& ground, const RenderOptions& options) {
+  constexpr double kPlanesFrom = 10.0, kPlanesAll = 3.6;
+  const double slope = ground.heightM * ground.bladesPerPatch / ground.patchSideM;
+  const auto sine = [](double tangent) { return tangent / std::sqrt(1.0 + tangent * tangent); };
+  const double all = std::min(sine(slope / kPlanesAll), cosTheta0(options));
+  return {all * sine(slope / kPlanesFrom) / sine(slope / kPlanesAll) - 1e-6, all};
+}
+
 /// Families of planes that a ray needs: the weights of shaders/ground/surface.glsl or blended.frag that are above 0.
-unsigned familiesOf(const glm::dvec3& d, const RenderOptions& options) {
+unsigned familiesOf(const glm::dvec3& d, const RenderOptions& options, const SliceRange& slicesAt) {
   const double facing = std::abs(d.z);
   if (options.method != GroundMethod::March) return kSlices | (facing < cosTheta0(options) ? kBladesX | kBladesY : 0u);
-  const double steep = smoothstep(kSlicesFrom * cosTheta0(options), kSlicesAll * cosTheta0(options), facing);
+  const double steep = smoothstep(slicesAt.from, slicesAt.all, facing);
   const double towardX = std::abs(d.x) / std::max(std::abs(d.x) + std::abs(d.y), 1e-6);
   const double x = smoothstep(0.5 - kDiagonalFade, 0.5 + kDiagonalFade, towardX);
   unsigned families = steep > 0.0 ? kSlices : 0u;
@@ -145,6 +160,9 @@ void setSets(gpu::Program& program, const PassInput& input) {
 }
 
 void setLight(gpu::Program& program, const PassInput& input, const Frame& frame, double weight) {
+  const SliceRange slicesAt = sliceRange(*input.ground, frame.options);
+  setIfUsed(program, "u_slicesFrom", static_cast<float>(slicesAt.from));
+  setIfUsed(program, "u_slicesAll", static_cast<float>(slicesAt.all));
   setIfUsed(program, "u_relightScale", static_cast<float>(input.relit->scale()));
   setIfUsed(program, "u_cosTheta0", static_cast<float>(cosTheta0(frame.options)));
   setIfUsed(program, "u_exposure", static_cast<float>(frame.exposure * weight));
@@ -173,6 +191,7 @@ BlockPlan planBlocks(const Frame& frame, const bake::GroundBake& ground, bool ha
   constexpr int kProbes = 8;  // rays along a block's side, its corners and one pixel around them included
   const bool inside = frame.camera.position.z < ground.heightM;
   const double aspect = static_cast<double>(frame.width) / frame.height;
+  const SliceRange slicesAt = sliceRange(ground, frame.options);
   BlockPlan plan;
   for (int y = 0; y < frame.height; y += BlockPlan::kBlock) {
     for (int x = 0; x < frame.width; x += BlockPlan::kBlock) {
@@ -183,7 +202,7 @@ BlockPlan planBlocks(const Frame& frame, const bake::GroundBake& ground, bool ha
         const glm::dvec3 d = frame.camera.rayDirection(px / frame.width, 1.0 - py / frame.height, aspect);
         if (d.z > -kHorizonMargin) needs |= BlockPlan::kSky;
         if (d.z >= 0.0 && !inside) continue;
-        const unsigned needed = hasBlades ? familiesOf(d, frame.options) : kSlices;
+        const unsigned needed = hasBlades ? familiesOf(d, frame.options, slicesAt) : kSlices;
         needs |= needed;
         plan.sets |= facingSets(d, needed);
         plan.sets.set(kSliceSet);  // slices, or the soil alone

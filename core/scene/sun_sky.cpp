@@ -135,8 +135,17 @@ image::Image Daylight::skyMap(int width, int height) const {
 
 double Daylight::autoExposure() const {
   const glm::dvec3 irradiance = m_sunIrradiance * std::max(m_sunDirection.z, 0.0) + kPi * m_meanSkyRadiance;
-  const double grey = 0.18 / kPi * image::luminance(glm::vec3(irradiance));
-  return grey > 0.0 ? 0.18 / grey : 1.0;
+  const double grey = 0.18 / kPi * static_cast<double>(image::luminance(glm::vec3(irradiance)));
+  constexpr int kAzimuths = 32;
+  constexpr double kMeteredElevationDeg = 8.0;
+  double horizon = 0.0;
+  for (int i = 0; i < kAzimuths; ++i) {
+    const glm::dvec3 radiance = skyRadiance(directionFromAngles({360.0 * i / kAzimuths, kMeteredElevationDeg}));
+    horizon += static_cast<double>(image::luminance(glm::vec3(radiance))) / kAzimuths;
+  }
+  // A sky that would stand more than two stops over mid-grey is metered instead, as a photographer would at dusk.
+  const double metered = std::max(grey, 0.25 * horizon);
+  return metered > 0.0 ? 0.18 / metered : 1.0;
 }
 
 }  // namespace sward::scene

@@ -14,10 +14,10 @@ SunAngles sunAngles(const SunMoment& moment);
 /// Unit vector toward the sun that the options give; an error for a date, hour or place that does not exist.
 Result<glm::dvec3> sunDirection(const SunOptions& options);
 
-/// Daylight of Preetham, Shirley and Smits (1999): sky radiance by Perez' formula, the sun through Rayleigh, aerosol and
-/// ozone extinction at three wavelengths, in linear Rec. 709 RGB, scaled so that a clear noon's horizontal sun irradiance
-/// is near pi. Fades to a dim blue as the sun sets; never negative or NaN for any direction and elevation; turbidity is
-/// held in [1.7, 10], where the model was fitted.
+/// Daylight of Preetham, Shirley and Smits (1999): sky radiance by Perez' formula, the sun through Rayleigh, aerosol
+/// and ozone extinction at three wavelengths, in linear Rec. 709 RGB, scaled so that a clear noon's horizontal sun
+/// irradiance is near pi. Fades to a dim blue as the sun sets; never negative or NaN for any direction and elevation;
+/// turbidity is held in [1.7, 10], where the model was fitted.
 class Daylight {
  public:
   Daylight(const glm::dvec3& sunDirection, const SunOptions& sun, const SkyOptions& sky);
@@ -29,11 +29,12 @@ class Daylight {
   glm::dvec3 skyRadiance(const glm::dvec3& direction) const;
   /// Cosine-weighted mean sky radiance over the upper hemisphere: irradiance of a horizontal plane divided by pi.
   glm::dvec3 meanSkyRadiance() const { return m_meanSkyRadiance; }
-  /// A latitude-longitude map of skyRadiance over the upper hemisphere: column u is azimuth 360 (u + 1/2) / width degrees
-  /// clockwise from north, row v elevation 90 ((v + 1/2) / height)^2 degrees, row 0 at the horizon, so that the horizon is
-  /// finely sampled.
+  /// A latitude-longitude map of skyRadiance over the upper hemisphere: column u is azimuth 360 (u + 1/2) / width
+  /// degrees clockwise from north, row v elevation 90 ((v + 1/2) / height)^2 degrees, row 0 at the horizon, so that the
+  /// horizon is finely sampled.
   image::Image skyMap(int width, int height) const;
-  /// Exposure that brings a horizontal grey of 18 % under this light to mid-grey: 0.18 / its radiance.
+  /// Exposure that brings a horizontal grey of 18 % under this light to 0.18, or the mean sky near the horizon to 0.72
+  /// where that asks for less: a low sun does not bleach the sky.
   double autoExposure() const;
 
  private:

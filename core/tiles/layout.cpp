@@ -83,7 +83,7 @@ std::vector<Tile> tileColours(int coloursPerAxis, int tilesPerPair) {
 std::vector<std::vector<glm::ivec2>> spreadDiamonds(int patchResolution, int pitch, int count, int most,
                                                     std::uint64_t seed) {
   SWARD_CHECK_LE(count, (patchResolution / pitch) * (patchResolution / pitch));
-  constexpr int kTrials = 64;
+  constexpr int kTrials = 512;
   base::Random random(base::mix64(seed, 0x6469616d6f6e6473ULL));
   std::vector<std::vector<glm::ivec2>> layouts;
   int best = -1;

@@ -1,5 +1,6 @@
 #include "tiles/tile_set.h"
 
+#include "tiles/evenness.h"
 #include "tiles/layout.h"
 #include "tiles/seam_problem.h"
 
@@ -7,7 +8,9 @@
 #include "base/parallel.h"
 #include "lpt/polynomial.h"
 
+#include <algorithm>
 #include <string>
+#include <utility>
 
 namespace sward::tiles {
 
@@ -110,7 +113,25 @@ void cutSeams(TileSet& set, const Assembly& assembly, SeamMethod method, const J
   });
 }
 
-/// Among equally spread layouts, the one whose seams cost least.
+/// The `most` layouts under which rows and columns of tiles show least.
+std::vector<std::vector<glm::ivec2>> evenestLayouts(const TileSet& set, std::vector<std::vector<glm::ivec2>> layouts,
+                                                    std::span<const SeamColumn> columns, std::size_t most,
+                                                    const JobContext& job) {
+  std::vector<std::pair<double, std::size_t>> order(layouts.size());
+  base::parallelFor(job, layouts.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      TileSet trial = set;
+      trial.diamonds = layouts[i];
+      order[i] = {unevenness(trial, columns), i};
+    }
+  });
+  std::sort(order.begin(), order.end());
+  std::vector<std::vector<glm::ivec2>> evenest;
+  for (std::size_t i = 0; i < std::min(most, order.size()); ++i) evenest.push_back(std::move(layouts[order[i].second]));
+  return evenest;
+}
+
+/// Among these layouts, the one whose seams cost least.
 void chooseLayout(TileSet& set, const std::vector<std::vector<glm::ivec2>>& layouts, const Assembly& assembly,
                   const JobContext& job) {
   base::ProgressCounter progress(job, "tiles", layouts.size());
@@ -165,9 +186,11 @@ Result<TileSet> makeTileSet(std::span<const SeamColumn> columns, int patchResolu
   const auto gram = lpt::gramMatrix(domain);
   const SeamSpace space(columns, gram, job);
   const Assembly assembly{space, permittedOwners(options.resolution, options.overlap), options.seam, options.overlap};
-  constexpr int kLayouts = 12;
-  chooseLayout(set, spreadDiamonds(patchResolution, pitch, 2 * options.coloursPerAxis, kLayouts, options.seed),
-               assembly, job);
+  // Many layouts are equally spread; those that show rows least go on to have their seams cut.
+  constexpr int kLayouts = 192;
+  constexpr std::size_t kCut = 8;
+  auto layouts = spreadDiamonds(patchResolution, pitch, 2 * options.coloursPerAxis, kLayouts, options.seed);
+  chooseLayout(set, evenestLayouts(set, std::move(layouts), columns, kCut, job), assembly, job);
   if (job.cancelled()) return Error::cancelled();
   return set;
 }

@@ -12,11 +12,8 @@ const float kLevelReachM = 1.0;
 const float kLevelBias = 0.9;        // on footprints: below 1 sharper
 const float kSoilLevelSlant = 0.5;   // how much of the slant a soil texel's level takes
 
-// Where slices give way to blades: shares of cos(theta0) that |N.E| is compared with (C++).
-const float kSlicesFrom = 1.0;
-const float kSlicesAll = 1.1;
 // Half the width of the cross-fade between blades normal to x and to y, in |dx| / (|dx| + |dy|) (C++).
-const float kDiagonalFade = 0.02;
+const float kDiagonalFade = 0.45;
 
 const float kSunDiscRad = 0.00465;     // angular radius
 const float kSunLimbRad = 0.0007;      // soft edge

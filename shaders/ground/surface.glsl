@@ -6,6 +6,8 @@ uniform float u_slabsPerM;
 uniform float u_heightM;       // of the shell
 uniform float u_relightScale;
 uniform float u_cosTheta0;
+uniform float u_slicesFrom;    // |N.E| from which the march draws slices
+uniform float u_slicesAll;     // and from which it draws nothing else
 uniform float u_exposure;
 uniform float u_hazePerM;      // extinction of aerial perspective
 uniform float u_macroFadePerM;  // 1 / distance at which a pixel covers the macro variation
@@ -47,7 +49,7 @@ Walk startWalk(vec3 d) {
 
 // Slices (x = 0) or blades (x = 1), and those normal to x (y = 0) or to y (y = 1): drawn by lot with the weights.
 ivec2 chooseFamily(vec3 d, float lot) {
-  float steep = smoothstep(kSlicesFrom * u_cosTheta0, kSlicesAll * u_cosTheta0, abs(d.z));
+  float steep = smoothstep(u_slicesFrom, u_slicesAll, abs(d.z));
   float towardX = abs(d.x) / max(abs(d.x) + abs(d.y), 1e-6);
   float x = smoothstep(0.5 - kDiagonalFade, 0.5 + kDiagonalFade, towardX);
 #if !(SWARD_FAMILIES & 1)

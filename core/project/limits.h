@@ -12,8 +12,8 @@ inline constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;
 inline constexpr double kMaxHitRays = 4.0e9;
 /// Most layer texels of the tiles together; 12 bytes each are held while a bake is drawn.
 inline constexpr double kMaxTileTexels = 5.0e8;
-/// Most tiles of a set: the ground's map keeps one byte a cell.
-inline constexpr int kMaxTiles = 256;
+/// Most tiles of a set: the ground's map keeps one byte a cell, one value is spare.
+inline constexpr int kMaxTiles = 255;
 /// With fewer lights than this PTM's six coefficients are not determined.
 inline constexpr int kFewLights = 6;
 

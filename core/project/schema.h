@@ -219,8 +219,9 @@ void describe(A& a, typename A::template Ref<tiles::TileOptions> v) {
   a.field("apron", v.apron, range(1, 64, "texels"));
   a.field("seam", v.seam);
   a.field("domain", v.domain);
-  a.field("mapWidth", v.mapWidth, range(1, 8192, "cells"));
-  a.field("mapHeight", v.mapHeight, range(1, 8192, "cells"));
+  // Shaders count the cells in floats, exact up to 2^24.
+  a.field("mapWidth", v.mapWidth, range(1, 3900, "cells"));
+  a.field("mapHeight", v.mapHeight, range(1, 3900, "cells"));
   a.field("map", v.map);
   a.field("seed", v.seed);
 }

@@ -113,6 +113,16 @@ void checkSampling(const trace::SamplingOptions& sampling, Problems& out) {
                   std::to_string(sampling.blades) + " blades",
               "Make it a multiple of sampling.blades.");
   }
+  // Tiles place the blades' slabs by slice texels, so a blade texel may not straddle two of them.
+  if (sampling.sliceResolution > 0 && sampling.bladeWidth % sampling.sliceResolution != 0) {
+    out.error("sampling.bladeWidth",
+              std::to_string(sampling.bladeWidth) + " texels are no multiple of the slices' " +
+                  std::to_string(sampling.sliceResolution),
+              "Make it 1, 2, 3 ... times sampling.sliceResolution.");
+  }
+  if (sampling.bladeWidth % 2 != 0) {
+    out.error("sampling.bladeWidth", std::to_string(sampling.bladeWidth) + " texels is odd", "Give an even number.");
+  }
   const auto rays = [](int width, int height, int layers, int subSamples) {
     return static_cast<double>(width) * height * layers * subSamples;
   };
@@ -181,7 +191,7 @@ void checkTileCounts(const Project& project, Problems& out) {
   }
   if (count > kMaxTiles) {
     out.error("tiles.tilesPerPair", std::to_string(count) + " tiles do not fit in one byte a cell",
-              "Keep coloursPerAxis squared times tilesPerPair at 256 or less.");
+              "Keep coloursPerAxis squared times tilesPerPair at 255 or less.");
   }
   if (t.map == tiles::MapMethod::Hashed && t.tilesPerPair != pairs) {
     out.error("tiles.map", "a hashed map needs the complete set of tiles",

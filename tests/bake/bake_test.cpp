@@ -107,7 +107,7 @@ TEST_F(BakeGraph, TheGroundHoldsWhatItShould) {
   EXPECT_EQ(ground.soil.basis, lpt::Basis::Ptm);
   EXPECT_TRUE(ground.soil.transmission.empty());
   for (const auto& blade : ground.blades) {
-    EXPECT_EQ(blade.width, 24);
+    EXPECT_EQ(blade.width, 32);
     EXPECT_EQ(blade.height, 16);
     EXPECT_EQ(blade.layers, 8);
     EXPECT_EQ(blade.images, 1);

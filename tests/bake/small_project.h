@@ -26,7 +26,7 @@ inline project::Project smallProject() {
   project.lights.directions = {{0, 90}, {0, 35}, {72, 25}, {144, 35}, {216, 25}, {288, 35}};
   project.sampling.sliceResolution = 32;
   project.sampling.slices = 4;
-  project.sampling.bladeWidth = 24;
+  project.sampling.bladeWidth = 32;
   project.sampling.bladeHeight = 16;
   project.sampling.blades = 8;
   project.sampling.visibilityDirections = 4;

@@ -96,7 +96,9 @@ TEST(ProjectJson, KeysStandInTheOrderOfTheDesign) {
 }
 
 TEST(ProjectJson, CurvesAndColoursStayOnOneLine) {
-  const std::string text = toJson(fullProject());
+  Project project = fullProject();
+  project.views[0].position = {0.0, -5.0, 1.65};
+  const std::string text = toJson(project);
   EXPECT_THAT(text, HasSubstr("\"profile\": [[0.0, 0.6], [0.3, 1.0], [1.0, 0.0]]"));
   EXPECT_THAT(text, HasSubstr("\"position\": [0.0, -5.0, 1.65]"));
 }

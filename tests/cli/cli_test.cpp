@@ -1,0 +1,254 @@
+#include "cli/run_program.h"
+
+#include "base/file.h"
+
+#include "bake/small_project.h"
+#include "bake/temporary_folder.h"
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace sward {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using test::listing;
+using test::Outcome;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+std::string contents(const fs::path& path) {
+  const auto text = base::readTextFile(path);
+  EXPECT_TRUE(text.ok()) << path;
+  return text.ok() ? *text : std::string();
+}
+
+/// A folder with a small project `p.sward` in it; the cache lies beside the work.
+class Cli : public testing::Test {
+ protected:
+  Cli() : m_folder("cli") {
+    fs::create_directories(work());
+    EXPECT_TRUE(project::save(bake::test::smallProject(), work() / "p.sward").ok());
+  }
+  fs::path work() const { return m_folder.path() / "work"; }
+  fs::path cache() const { return m_folder.path() / "cache"; }
+  Outcome run(std::vector<std::string> arguments, double interruptAfter = -1.0) const {
+    arguments.insert(arguments.end(), {"--cache", cache().string()});
+    return test::runProgram(work(), arguments, interruptAfter);
+  }
+  Outcome bare(const std::vector<std::string>& arguments) const { return test::runProgram(work(), arguments); }
+
+ private:
+  test::TemporaryFolder m_folder;
+};
+
+TEST_F(Cli, WithoutACommandItSaysHowToStart) {
+  const Outcome outcome = bare({});
+  EXPECT_EQ(outcome.exitCode, 2);
+  EXPECT_THAT(outcome.out, IsEmpty());
+  EXPECT_THAT(outcome.err, HasSubstr("sward render PROJECT"));
+  EXPECT_THAT(outcome.err, Not(HasSubstr("edit ")));
+}
+
+TEST_F(Cli, HelpAndVersionGoToStdout) {
+  const Outcome help = bare({"--help"});
+  EXPECT_EQ(help.exitCode, 0);
+  EXPECT_THAT(help.out, testing::AllOf(HasSubstr("Exit codes"), HasSubstr("Examples"), HasSubstr("render")));
+  EXPECT_THAT(bare({"--version"}).out, testing::StartsWith("sward 0."));
+  for (const char* command : {"render", "bake", "report", "new", "check", "info", "export"}) {
+    const Outcome one = bare({command, "--help"});
+    EXPECT_EQ(one.exitCode, 0) << command;
+    EXPECT_THAT(one.out, testing::AllOf(HasSubstr("--set"), HasSubstr("--threads"), HasSubstr("--json"),
+                                        HasSubstr("--quiet"), HasSubstr("--cache")))
+        << command;
+  }
+}
+
+struct Wrong {
+  std::vector<std::string> arguments;
+  const char* message;
+};
+
+class CliWrong : public Cli, public testing::WithParamInterface<Wrong> {};
+
+TEST_P(CliWrong, EndsWithTwoAndSaysWhy) {
+  std::ofstream(work() / "broken.sward") << "{\"name\": }";
+  std::ofstream(work() / "unknown.sward") << "{\"sun\": {\"angels\": {}}}";
+  std::ofstream(work() / "file") << "x";
+  fs::create_directories(work() / "folder.png");
+  const auto before = listing(work());
+  const Outcome outcome = bare(GetParam().arguments);
+  EXPECT_EQ(outcome.exitCode, 2) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr(GetParam().message));
+  EXPECT_THAT(outcome.out, IsEmpty());
+  EXPECT_EQ(listing(work()), before);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, CliWrong,
+    testing::Values(
+        Wrong{{"rendr", "p.sward"}, "Did you mean `sward render`"}, Wrong{{"edit"}, "--help"},
+        Wrong{{"render", "p.sward"}, "--output"}, Wrong{{"render", "p.sward", "-o", "a.png", "--colour"}, "--colour"},
+        Wrong{{"render", "missing.sward", "-o", "a.png"}, "missing.sward"},
+        Wrong{{"render", "broken.sward", "-o", "a.png"}, "broken.sward:1:10"},
+        Wrong{{"render", "unknown.sward", "-o", "a.png"}, "Did you mean \"angles\""},
+        Wrong{{"render", "p.sward", "-o", "a.png", "--view", "mian"}, "Did you mean \"main\""},
+        Wrong{{"render", "p.sward", "-o", "a.png", "--size", "0x0"}, "--size"},
+        Wrong{{"render", "p.sward", "-o", "a.png", "--size", "1000000x10"}, "--size"},
+        Wrong{{"render", "p.sward", "-o", "a.png", "--size", "16384x16385"}, "--size"},
+        Wrong{{"render", "p.sward", "-o", "a.png", "--size", "640"}, "640"},
+        Wrong{{"render", "p.sward", "-o", "a.png", "--size", "99999999999999999999x1"}, "--size"},
+        Wrong{{"render", "p.sward", "-o", "a.png", "--sun", "nan,5"}, "--sun"},
+        Wrong{{"render", "p.sward", "-o", "a.png", "--sun", "10,95"}, "--sun"},
+        Wrong{{"render", "p.sward", "-o", "a.png", "--method", "marsh"}, "Did you mean \"march\""},
+        Wrong{{"render", "p.sward", "-o", "a.png", "--method", "lpt8,ptm8"}, "same kind"},
+        Wrong{{"render", "p.sward", "-o", "a.png", "--device", "vulkan"}, "vulkan"},
+        Wrong{{"render", "p.sward", "-o", "a.png", "--spp", "0"}, "--spp"},
+        Wrong{{"render", "p.sward", "-o", "a.png", "--threads", "-1"}, "--threads"},
+        Wrong{{"render", "p.sward", "-o", "a.bmp"}, ".png"}, Wrong{{"render", "p.sward", "-o", "a"}, ".png"},
+        Wrong{{"render", "p.sward", "-o", "none/a.png"}, "none"},
+        Wrong{{"render", "p.sward", "-o", "file/a.png"}, "not a folder"},
+        Wrong{{"render", "p.sward", "-o", "folder.png"}, "folder"},
+        Wrong{{"render", "p.sward", "-o", "/dev/full"}, "/dev/full"},
+        Wrong{{"render", "p.sward", "-o", "a.png", "--set", "sampling.slices=0"}, "sampling.slices"},
+        Wrong{{"render", "p.sward", "-o", "a.png", "--set", "sampling.slice=1"}, "Did you mean \"slices\""},
+        Wrong{{"render", "p.sward", "-o", "a.png", "--set", "sampling"}, "path=value"},
+        Wrong{{"bake", "p.sward", "--for", "nobody"}, "nobody"},
+        Wrong{{"check", "p.sward", "--set", "tiles.apron=3"}, "tiles.apron"},
+        Wrong{{"report", "p.sward", "-o", "r", "--section", "sped"}, "sped"},
+        Wrong{{"report", "p.sward", "-o", "file"}, "file"}, Wrong{{"export", "p.sward", "-o", "file"}, "file"},
+        Wrong{{"new", "n.sward", "--template", "medow"}, "Did you mean \"meadow\""},
+        Wrong{{"new", "n.sward", "--grass", "missing.glb"}, "missing.glb"},
+        Wrong{{"new", "n.sward", "--grass", "file"}, "file"}, Wrong{{"new", "p.sward"}, "--force"},
+        Wrong{{"new", "/dev/full", "--force"}, "/dev/full"}, Wrong{{"new"}, "file"}));
+
+TEST_F(Cli, RenderDrawsAndAChangedSunBakesNothing) {
+  const Outcome first = run({"render", "p.sward", "-o", "a.png", "--size", "96x54", "--spp", "2", "--json"});
+  ASSERT_EQ(first.exitCode, 0) << first.err;
+  const Json result = Json::parse(first.out);
+  EXPECT_EQ(result["width"], 96);
+  EXPECT_GT(result["bake"]["rays"]["nearest"], 0);
+  EXPECT_EQ(contents(work() / "a.png").substr(1, 3), "PNG");
+  const Outcome second =
+      run({"render", "p.sward", "-o", "b.exr", "--size", "96x54", "--spp", "2", "--sun", "30,50", "--json"});
+  ASSERT_EQ(second.exitCode, 0) << second.err;
+  const Json again = Json::parse(second.out);
+  EXPECT_EQ(again["bake"]["rays"]["nearest"], 0);
+  EXPECT_EQ(again["bake"]["rays"]["occlusion"], 0);
+  for (const Json& node : again["bake"]["nodes"]) EXPECT_NE(node["state"], "baked");
+  EXPECT_EQ(contents(work() / "b.exr").substr(0, 4), std::string("\x76\x2f\x31\x01"));
+  EXPECT_THAT(listing(work()), testing::ElementsAre("a.png", "b.exr", "p.sward"));
+}
+
+TEST_F(Cli, QuietSaysNothing) {
+  const Outcome outcome = run({"bake", "p.sward", "--quiet"});
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_THAT(outcome.out, IsEmpty());
+  EXPECT_THAT(outcome.err, IsEmpty());
+}
+
+TEST_F(Cli, BakeListsItsNodes) {
+  const Json first = Json::parse(run({"bake", "p.sward", "--json"}).out);
+  const Json second = Json::parse(run({"bake", "p.sward", "--json", "--for", "main"}).out);
+  EXPECT_GT(first["nodes"].size(), 40u);
+  EXPECT_EQ(first["nodes"].size(), second["nodes"].size());
+  EXPECT_EQ(first["nodes"][1]["state"], "baked");
+  EXPECT_EQ(second["nodes"][1]["state"], "skipped");
+  EXPECT_GT(first["groundBytes"], 0);
+}
+
+TEST_F(Cli, AnUnusableCacheIsAWarning) {
+  const Outcome outcome = bare({"bake", "p.sward", "--cache", "/dev/full"});
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("warning"));
+  EXPECT_THAT(outcome.err, HasSubstr("/dev/full"));
+}
+
+TEST_F(Cli, CheckListsProblems) {
+  EXPECT_EQ(bare({"check", "p.sward"}).exitCode, 0);
+  const Outcome bad = bare({"check", "p.sward", "--json", "--set", "tiles.apron=3", "--set", "lights.pattern=fibonacci",
+                            "--set", "lights.count=3"});
+  EXPECT_EQ(bad.exitCode, 2);
+  const Json result = Json::parse(bad.out);
+  EXPECT_EQ(result["valid"], false);
+  ASSERT_EQ(result["problems"].size(), 2u);
+  EXPECT_EQ(result["problems"][0]["fatal"], false);
+  EXPECT_EQ(result["problems"][1]["where"], "tiles.apron");
+}
+
+TEST_F(Cli, CheckOpensAssets) {
+  std::ofstream(work() / "bad.glb") << "glTF but not really";
+  const Outcome bad =
+      bare({"check", "p.sward", "--set", "patch.plants[0].kind=gltf", "--set", "patch.plants[0].gltf.path=bad.glb"});
+  EXPECT_EQ(bad.exitCode, 2) << bad.err;
+  EXPECT_THAT(bad.err, HasSubstr("patch.plants[0].gltf.path"));
+}
+
+TEST_F(Cli, NewExportAndNewAgain) {
+  ASSERT_EQ(bare({"export", "p.sward", "-o", "plants"}).exitCode, 0);
+  EXPECT_THAT(listing(work() / "plants"), testing::ElementsAre("flower.glb", "grass-1.glb", "grass-2.glb"));
+  fs::create_directories(work() / "projects");
+  const Outcome made = bare({"new", "projects/mine.sward", "--grass", "plants/grass-1.glb", "--template", "lawn"});
+  ASSERT_EQ(made.exitCode, 0) << made.err;
+  const auto project = project::load(work() / "projects" / "mine.sward");
+  ASSERT_TRUE(project.ok());
+  EXPECT_EQ(project->patch.plants[0].kind, project::PlantKind::Gltf);
+  EXPECT_EQ(project->patch.plants[0].gltf.path, "../plants/grass-1.glb");
+  EXPECT_EQ(bare({"check", "projects/mine.sward"}).exitCode, 0);
+  EXPECT_EQ(bare({"new", "--list"}).out, "meadow\nlawn\nempty\n");
+  EXPECT_EQ(bare({"new", "p.sward", "--force", "--quiet"}).exitCode, 0);
+}
+
+TEST_F(Cli, InfoNamesDevicesAndLibraries) {
+  const Outcome outcome = bare({"info", "--json"});
+  ASSERT_EQ(outcome.exitCode, 0);
+  const Json info = Json::parse(outcome.out);
+  EXPECT_EQ(info["devices"].size(), 2u);
+  EXPECT_TRUE(info["libraries"].contains("Embree"));
+}
+
+/// A project whose bake takes many seconds.
+std::vector<std::string> slow() {
+  return {"--set", "sampling.sliceResolution=512",
+          "--set", "sampling.bladeWidth=512",
+          "--set", "tiles.resolution=128",
+          "--set", "sampling.sliceSubSamples=16",
+          "--set", "sampling.visibilityDirections=256"};
+}
+
+TEST_F(Cli, CtrlCEndsABakeWithinASecond) {
+  for (const char* command : {"render", "bake"}) {
+    std::vector<std::string> arguments{command, "p.sward"};
+    if (std::string_view(command) == "render") arguments.insert(arguments.end(), {"-o", "a.png"});
+    for (const std::string& argument : slow()) arguments.push_back(argument);
+    const Outcome outcome = run(arguments, 0.6);
+    EXPECT_EQ(outcome.exitCode, 130) << command << ": " << outcome.err;
+    EXPECT_LT(outcome.seconds, 1.0) << command;
+    EXPECT_THAT(listing(work()), testing::ElementsAre("p.sward")) << command;
+  }
+}
+
+TEST_F(Cli, CtrlCEndsAPictureWithinASecond) {
+  ASSERT_EQ(run({"bake", "p.sward"}).exitCode, 0);
+  const Outcome outcome = run({"render", "p.sward", "-o", "a.png", "--size", "3840x2160", "--spp", "4096"}, 2.0);
+  EXPECT_EQ(outcome.exitCode, 130) << outcome.err;
+  EXPECT_LT(outcome.seconds, 1.0);
+  EXPECT_THAT(listing(work()), testing::ElementsAre("p.sward"));
+}
+
+TEST_F(Cli, AFailingRenderLeavesTheOldPicture) {
+  std::ofstream(work() / "a.png") << "old";
+  EXPECT_EQ(bare({"render", "p.sward", "-o", "a.png", "--view", "nobody"}).exitCode, 2);
+  std::vector<std::string> arguments{"render", "p.sward", "-o", "a.png"};
+  for (const std::string& argument : slow()) arguments.push_back(argument);
+  EXPECT_EQ(run(arguments, 0.5).exitCode, 130);
+  EXPECT_EQ(contents(work() / "a.png"), "old");
+}
+
+}  // namespace
+}  // namespace sward

@@ -1,0 +1,71 @@
+#include "cli/run_program.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace sward::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+std::string contents(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+[[noreturn]] void execute(const fs::path& folder, const std::vector<std::string>& arguments, const fs::path& out,
+                          const fs::path& err) {
+  std::vector<std::string> all{SWARD_BINARY};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  std::vector<char*> pointers;
+  for (std::string& argument : all) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666), STDOUT_FILENO);
+  ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666), STDERR_FILENO);
+  if (::chdir(folder.c_str()) == 0) ::execv(SWARD_BINARY, pointers.data());
+  ::_exit(99);
+}
+
+}  // namespace
+
+Outcome runProgram(const fs::path& folder, const std::vector<std::string>& arguments, double interruptAfter) {
+  const fs::path base = folder.string() + ".streams";
+  const fs::path out = base.string() + ".out", err = base.string() + ".err";
+  auto start = Clock::now();
+  const pid_t child = ::fork();
+  if (child == 0) execute(folder, arguments, out, err);
+  if (interruptAfter >= 0.0) {
+    std::this_thread::sleep_for(std::chrono::duration<double>(interruptAfter));
+    ::kill(child, SIGINT);
+    start = Clock::now();
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  Outcome outcome;
+  outcome.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  outcome.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  outcome.out = contents(out);
+  outcome.err = contents(err);
+  fs::remove(out);
+  fs::remove(err);
+  return outcome;
+}
+
+std::vector<std::string> listing(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& item : fs::directory_iterator(folder)) names.push_back(item.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace sward::test

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace sward::test {
+
+struct Outcome {
+  int exitCode = -1;  ///< -1 when a signal ended it
+  std::string out, err;
+  double seconds = 0.0;  ///< after the signal where one was sent, else in all
+};
+
+/// Runs the built program with these arguments in `folder` and waits for it. With `interruptAfter` >= 0, sends SIGINT
+/// that many seconds after the start.
+Outcome runProgram(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+                   double interruptAfter = -1.0);
+
+/// The names of everything in a folder, sorted.
+std::vector<std::string> listing(const std::filesystem::path& folder);
+
+}  // namespace sward::test

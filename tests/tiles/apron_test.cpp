@@ -162,10 +162,10 @@ TEST(Apron, EveryMatchingPairJoinsWithoutASeamAtMips0To3) {
     EXPECT_LT(joint.worstAway, 1e-12) << level;
     EXPECT_LT(joint.worstExcess, 1e-6) << level;
     // Root mean square of what differs near corners, of the picture's own: under a half texel by texel (the corner
-    // texels alone), and less as texels average.
+    // texels alone), and less as texels average, though not by half a level: neighbouring texels resemble each other.
     const double relative = std::sqrt(joint.squares / joint.near / meanSquare);
     RecordProperty("corner_rms_level_" + std::to_string(level), std::to_string(relative));
-    constexpr std::array kBounds{0.5, 0.25, 0.15, 0.15};
+    constexpr std::array kBounds{0.5, 0.25, 0.2, 0.2};
     EXPECT_LT(relative, kBounds[k]) << level;
   }
 }

@@ -11,6 +11,8 @@ Plant grass(const std::string& name, double share, double densityPerM2) {
   plant.kind = PlantKind::Grass;
   plant.share = share;
   plant.densityPerM2 = densityPerM2;
+  plant.grass.segments = 5;
+  plant.grass.foldDeg = 0.0;  // a crease is finer than a texel, and doubles the triangles
   return plant;
 }
 

@@ -38,12 +38,13 @@ sward_build() {
     sward_say "sward: configuring"
     cmake --preset release -DSWARD_TESTS="$tests" >build/configure.log 2>&1 || { cat build/configure.log >&2; return 1; }
   fi
-  if ! ninja -C build/release -n "$@" 2>/dev/null | grep -q 'no work to do'; then
-    sward_say "sward: building (the first time takes some minutes)"
-    if [ -t 2 ]; then ninja -C build/release "$@" >&2 || return 1
-    else ninja -C build/release "$@" >build/build.log 2>&1 || { tail -n 60 build/build.log >&2; return 1; }
-    fi
+  [ -f build/release/.built-"$tests" ] || sward_say "sward: building; the first time takes some minutes"
+  if ! ninja -C build/release "$@" >build/build.log 2>&1; then
+    tail -n 60 build/build.log >&2
+    sward_say "sward: the build failed; build/build.log has the whole log"
+    return 1
   fi
+  touch build/release/.built-"$tests"
   flock -u 9
   exec 9>&-
 }

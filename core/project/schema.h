@@ -234,6 +234,7 @@ void describe(A& a, typename A::template Ref<render::RenderOptions> v) {
   a.field("samples", v.samples, range(1, 4096, "samples a pixel"));
   a.field("macroVariation", v.macroVariation, range(0.0, 1.0));
   a.field("macroScaleM", v.macroScaleM, range(0.01, 100000.0, "m"));
+  a.field("gridBendM", v.gridBendM, range(0.0, 2.0, "m"));
 }
 
 template <typename A>

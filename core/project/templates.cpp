@@ -109,10 +109,10 @@ Plant clover(double share, double densityPerM2, double heightM) {
 
 /// Heads 30 degrees east of north: along the tiles' axes a small set shows its rows most.
 std::vector<scene::View> views(double grassM, double eyeM) {
-  constexpr double kEv = 0.3;
+  constexpr double kEv = 0.3, kEvDown = 0.7;  // from above one sees more shade, and no sky to keep
   const scene::View eyeHeight{"main", {-3.0, -5.196, eyeM}, {0.0, 0.0, 0.55 * eyeM + 0.1}, 35.0, kEv};
-  const scene::View down{"top", {0.0, 0.0, 5.0}, {0.0, 0.0, 0.0}, 35.0, kEv};
-  const scene::View slanted{"slanted", {-1.1, -1.905, grassM + 1.8}, {0.0, 0.0, 0.3 * grassM}, 35.0, kEv};
+  const scene::View down{"top", {0.0, 0.0, 5.0}, {0.0, 0.0, 0.0}, 35.0, kEvDown};
+  const scene::View slanted{"slanted", {-1.1, -1.905, grassM + 1.8}, {0.0, 0.0, 0.3 * grassM}, 35.0, kEvDown};
   const scene::View low{"low", {-0.8, -1.386, grassM + 0.25}, {0.6, 1.039, 0.6 * grassM}, 28.0, kEv};
   return {eyeHeight, down, slanted, low};
 }

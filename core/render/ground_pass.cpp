@@ -11,6 +11,7 @@ namespace {
 
 // The same as in shaders/ground/constants.glsl.
 constexpr double kDiagonalFade = 0.45;
+constexpr double kBendM = 19.0;  ///< length of the wave that bends the tiles' grid
 constexpr double kSunDiscGain = 60.0;
 
 constexpr unsigned kSlices = 1, kBladesX = 2, kBladesY = 4;
@@ -127,6 +128,10 @@ void setPlace(gpu::Program& program, const PassInput& input, const Frame& frame)
   setIfUsed(program, "u_mapOffset",
             glm::vec2(positiveModulo(cell.x + ground.map.width / 2, ground.map.width),
                       positiveModulo(cell.y + ground.map.height / 2, ground.map.height)));
+  setIfUsed(program, "u_gridBendTiles", static_cast<float>(frame.options.gridBendM / side));
+  setIfUsed(program, "u_bendTurns", static_cast<float>(side / kBendM));
+  const glm::dvec2 turns = cell * (side / kBendM);
+  setIfUsed(program, "u_bendPhase", glm::vec2(positiveModulo(turns.y, 1.0), positiveModulo(turns.x + 0.4, 1.0)));
   setIfUsed(program, "u_macroFadePerM",
             static_cast<float>(kMacroFadePixels * pixelAngle / std::max(frame.options.macroScaleM, side)));
 }
@@ -150,7 +155,6 @@ void setSets(gpu::Program& program, const PassInput& input) {
   setIfUsed(program, "u_bladeVerticalLevels", blades.verticalLevels);
   setIfUsed(program, "u_bladePlanes", blades.planes());
   setIfUsed(program, "u_slabs", relit.slabsOfTile());
-  setIfUsed(program, "u_slabsInverse", 1.0f / static_cast<float>(relit.slabsOfTile()));
   setIfUsed(program, "u_slabsPerM", static_cast<float>(relit.slabsOfTile() / side));
   setIfUsed(program, "u_bladesPerM", static_cast<float>(std::sqrt(blades.width / side * rowsPerM)));
   if (!program.has("u_bladeBase")) return;
@@ -166,8 +170,7 @@ void setLight(gpu::Program& program, const PassInput& input, const Frame& frame,
   setIfUsed(program, "u_relightScale", static_cast<float>(input.relit->scale()));
   setIfUsed(program, "u_cosTheta0", static_cast<float>(cosTheta0(frame.options)));
   setIfUsed(program, "u_exposure", static_cast<float>(frame.exposure * weight));
-  // The shader raises 1/2 to it.
-  setIfUsed(program, "u_hazePerM", static_cast<float>(input.hazePerM / std::numbers::ln2));
+  setIfUsed(program, "u_hazePerM", static_cast<float>(input.hazePerM));
   setIfUsed(program, "u_sunDirection", glm::vec3(input.sunDirection));
   setIfUsed(program, "u_sunDisc", glm::vec3(input.sunIrradiance * kSunDiscGain));
 }

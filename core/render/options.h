@@ -19,6 +19,8 @@ struct RenderOptions {
   int samples = 16;             ///< sub-pixel samples of a picture
   double macroVariation = 0.12;  ///< relative brightness variation over metres; 0: none
   double macroScaleM = 6.0;
+  double gridBendM =
+      0.7;  ///< largest shift of the tiles' grid by slow waves, so that its rows are not straight; 0: none
   bool operator==(const RenderOptions&) const = default;
 };
 

@@ -1,13 +1,16 @@
 #include "render/relit_ground.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <string>
 
 namespace sward::render {
 namespace {
 
-constexpr int kLeastBladeRows = 16;  ///< blades keep a height profile of this many rows at every distance
+constexpr float kOpaque = 0.985f;           ///< these two also in shaders/include/layout.glsl
+constexpr float kDepthRange = 4.19970508f;  ///< -ln(1 - kOpaque)
+constexpr int kLeastBladeRows = 16;         ///< blades keep a height profile of this many rows at every distance
 constexpr int kMaxMapSide = 3900;
 constexpr int kGroup = 8;  ///< invocations along a side of a work group, as in the shaders
 /// A fit may overshoot the response's bound of 1; texels brighter than the scale are cut off.
@@ -350,7 +353,9 @@ std::vector<glm::vec4> RelitGround::readPlane(std::size_t set, int plane, int le
   std::vector<glm::vec4> texels(area);
   for (std::size_t i = 0; i < area; ++i) {
     const glm::vec4 stored = glm::vec4(bytes[4 * i], bytes[4 * i + 1], bytes[4 * i + 2], bytes[4 * i + 3]) / 255.0f;
-    texels[i] = glm::vec4(glm::vec3(stored) * glm::vec3(stored), stored.w);
+    // decodeRelit() of shaders/include/layout.glsl.
+    texels[i] = glm::vec4(glm::vec3(stored) * glm::vec3(stored),
+                          (1.0f - std::exp(-kDepthRange * stored.w * stored.w)) / kOpaque);
   }
   return texels;
 }

@@ -17,7 +17,8 @@ vec3 g_sum = vec3(0.0);
 float g_left = 1.0;
 
 void composite(uint stored, float weight, float times) {
-  float opacity = 1.0 - fastPower(1.0 - kOpaque * weight * kCoverageUnit * storedCoverage(stored), times);
+  float opacity = weight * (1.0 - transmitted(storedDepth(stored, kDepthUnit)));
+  if (times > 1.0) opacity = 1.0 - pow(1.0 - opacity, times);
   g_sum += g_left * opacity * storedColour(stored);
   g_left *= 1.0 - opacity;
 }
@@ -28,10 +29,10 @@ void compositeBlades(Walk walk, Level level, bool axisX, float weight, float ran
   for (int i = 0; i < kMaxBlendedBlades; ++i) {
     if (planes.t >= walk.tEnd) break;
     Site site =
-        bladeSite(level, axisX, planes.number, along.place + along.slope * planes.t, along.row + along.rowSlope * planes.t);
-    composite(fetchSite(site, along.start, u_slabs, level.area, level.mean), weight, abs(planes.step));
+        bladeSite(level, axisX, planes.place, alongAt(along, planes.t), along.row + along.rowSlope * planes.t);
+    composite(fetchSite(site, along.start, u_slabs, level.area, level.mean), weight, abs(planes.step) * float(u_slabs));
     planes.t += planes.stride;
-    planes.number += planes.step;
+    planes.place += planes.step;
   }
 }
 
@@ -50,14 +51,14 @@ void main() {
 #endif
 
   Level layered = sliceLevel(walk.footprint, random, levelJitter);
-  vec2 place = walk.place + layered.jitter;
+  vec2 place = slicePlace(walk, layered);
   Planes planes = slicePlanes(walk);
   for (int i = 0; i < u_sliceLayers; ++i) {
     if (planes.t >= walk.tEnd) break;
-    Site site = sliceSite(layered, int(planes.number), place + walk.slope * planes.t);
+    Site site = sliceSite(layered, int(planes.place), place + walk.slope * planes.t);
     composite(fetchSite(site, layered.start, u_sliceLayers, layered.area, layered.mean), slices, 1.0);
     planes.t += planes.stride;
-    planes.number += planes.step;
+    planes.place += planes.step;
   }
 #if SWARD_FAMILIES & 6
   Level level = bladeLevel(walk.footprint, random, levelJitter);

@@ -1,7 +1,7 @@
 // All constants of the ground's look in one place. core/render/ground_pass.cpp repeats those marked (C++).
 
-const float kOpaque = 0.985;         // opacity of a texel of full coverage: finite, so that weights can fade it
-const float kTransmittanceEnd = 0.02;  // a ray with less left is opaque
+const float kTransmittanceEnd = 0.04;  // a ray with less left is opaque
+const int kLotPixels = 4;           // side of the squares of pixels that draw lots between families together
 const int kMaxSteps = 160;           // planes that a ray may cross
 const int kMaxBlendedBlades = 64;    // of each direction that the blended methods composite
 const float kHeightSteps = 20.0;     // distant rays take at least this many steps through the shell's height
@@ -9,6 +9,8 @@ const float kNearestM = 0.12;        // planes nearer than this to the eye are l
 // A ray's mip level is that of a point this share of its way through the shell, at most so far into it.
 const float kLevelShare = 0.3;
 const float kLevelReachM = 1.0;
+// Within the shell rays sink at least so steeply: no real ground is flat enough to show its tallest stems alone.
+const float kLeastSlope = 0.02;
 const float kLevelBias = 0.9;        // on footprints: below 1 sharper
 const float kSoilLevelSlant = 0.5;   // how much of the slant a soil texel's level takes
 
@@ -24,4 +26,3 @@ const float kHueVariation = 0.35;      // of the macro variation, how much tilts
 // Sizes of the sky's textures, also in core/render/sky_map.cpp.
 const float kSkyRows = 128.0;
 const float kHorizonTexels = 512.0;
-const float kHalf = 0.5;

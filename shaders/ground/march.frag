@@ -19,84 +19,71 @@
 
 out vec4 o_radiance;
 
+float g_transmittance = 1.0;
+vec3 g_sum = vec3(0.0);  // in kColourUnit
+
+void composite(uint stored, float depthUnit) {
+  float through = transmitted(storedDepth(stored, depthUnit));
+  g_sum += g_transmittance * (1.0 - through) * storedColour(stored);
+  g_transmittance *= through;
+}
+
+#if SWARD_SLICES
+void marchSlices(Walk walk, Level level, float tEnd) {
+  Planes planes = slicePlanes(walk);
+  vec2 place = slicePlace(walk, level);
+  for (int i = 0; i < kMaxSteps; ++i) {
+    if (planes.t >= tEnd || g_transmittance <= kTransmittanceEnd) break;
+    Site site = sliceSite(level, int(planes.place), place + walk.slope * planes.t);
+    uint stored = fetchSite(site, level.start, u_sliceLayers, level.area, level.mean);
+    composite(stored, planes.depthUnit);
+    planes.t += planes.stride;
+    planes.place += planes.step;
+  }
+}
+#endif
+
+#if SWARD_BLADES
+void marchBlades(Walk walk, Level level, bool axisX, float tEnd, float random) {
+  BladeWalk blades = startBlades(walk, level, axisX, random);
+  Planes planes = blades.planes;
+  for (int i = 0; i < kMaxSteps; ++i) {
+    if (planes.t >= tEnd || g_transmittance <= kTransmittanceEnd) break;
+    Site site = bladeSite(level, axisX, planes.place, alongAt(blades, planes.t), blades.row + blades.rowSlope * planes.t);
+    uint stored = fetchSite(site, blades.start, u_slabs, level.area, level.mean);
+    composite(stored, planes.depthUnit);
+    planes.t += planes.stride;
+    planes.place += planes.step;
+  }
+}
+#endif
+
 void main() {
   vec3 d = viewRay(gl_FragCoord.xy);
-  vec3 random = pixelRandom(ivec2(gl_FragCoord.xy));
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec3 random = pixelRandom(pixel);
   float levelJitter = (1.0 + random.z) * kLevelBias;
   Walk walk = startWalk(d);
-  // Independent of each of the three alone.
-  ivec2 family = chooseFamily(d, fract(random.x + random.z));
+#if SWARD_FAMILIES == 1 || SWARD_FAMILIES == 2 || SWARD_FAMILIES == 4
+  ivec2 family = ivec2(SWARD_FAMILIES == 1 ? 0 : 1, SWARD_FAMILIES == 2 ? 0 : 1);
+#else
+  // One lot for a few pixels: processors that run these together then walk through one family.
+  ivec2 family = chooseFamily(d, pixelRandom(pixel / kLotPixels).x);
+#endif
 
-  Planes planes;
 #if SWARD_SLICES
   Level layered = sliceLevel(walk.footprint, random, levelJitter);
-  vec2 slicePlace = walk.place + layered.jitter;
-  planes = slicePlanes(walk);
+  marchSlices(walk, layered, family.x == 0 ? walk.tEnd : -1.0);
 #endif
 #if SWARD_BLADES
-  Level blades = bladeLevel(walk.footprint, random, levelJitter);
-  bool axisX = family.y == 0;
-  BladeWalk along = startBlades(walk, blades, axisX, random.y);
-#if SWARD_SLICES
-  bool sliced = family.x == 0;
-  planes.t = sliced ? planes.t : along.planes.t;
-  planes.stride = sliced ? planes.stride : along.planes.stride;
-  planes.number = sliced ? planes.number : along.planes.number;
-  planes.step = sliced ? planes.step : along.planes.step;
-  planes.power = sliced ? planes.power : along.planes.power;
-#else
-  planes = along.planes;
+  Level bladed = bladeLevel(walk.footprint, random, levelJitter);
+  marchBlades(walk, bladed, family.y == 0, family.x == 1 ? walk.tEnd : -1.0, random.y);
 #endif
-#endif
-
-  float transmittance = 1.0;
-  vec3 sum = vec3(0.0);
-  for (int i = 0; i < kMaxSteps; ++i) {
-    if (planes.t >= walk.tEnd || transmittance <= kTransmittanceEnd) break;
-    // One map word and one texel are fetched, whatever the family.
-#if SWARD_BLADES
-    Site site = bladeSite(blades, axisX, planes.number, along.place + along.slope * planes.t,
-                          along.row + along.rowSlope * planes.t);
-    int start = along.start;
-    int planesPerTile = u_slabs;
-    int area = blades.area;
-    bool mean = blades.mean;
-#endif
-#if SWARD_SLICES
-    Site sliceAt = sliceSite(layered, int(planes.number), slicePlace + walk.slope * planes.t);
-#if SWARD_BLADES
-    site.cell = sliced ? sliceAt.cell : site.cell;
-    site.plane = sliced ? sliceAt.plane : site.plane;
-    site.within = sliced ? sliceAt.within : site.within;
-    start = sliced ? layered.start : start;
-    planesPerTile = sliced ? u_sliceLayers : planesPerTile;
-    area = sliced ? layered.area : area;
-    mean = sliced ? layered.mean : mean;
-#else
-    Site site = sliceAt;
-    int start = layered.start;
-    int planesPerTile = u_sliceLayers;
-    int area = layered.area;
-    bool mean = layered.mean;
-#endif
-#endif
-    uint stored = fetchSite(site, start, planesPerTile, area, mean);
-    float opacity = kOpaque * kCoverageUnit * storedCoverage(stored);
-#if SWARD_FAMILIES == 1
-    float through = nearUnitPower(opacity, planes.power);
-#else
-    float through = fastPower(1.0 - opacity, planes.power);
-#endif
-    sum += transmittance * (1.0 - through) * storedColour(stored);
-    transmittance *= through;
-    planes.t += planes.stride;
-    planes.number += planes.step;
-  }
 
   // What little an opaque ray has left is given to what it saw.
-  bool opaque = transmittance <= kTransmittanceEnd;
-  vec3 radiance = sum * (kColourUnit / (opaque ? 1.0 - transmittance : 1.0));
-  float left = opaque ? 0.0 : transmittance;
+  bool opaque = g_transmittance <= kTransmittanceEnd;
+  vec3 radiance = g_sum * (kColourUnit / (opaque ? 1.0 - g_transmittance : 1.0));
+  float left = opaque ? 0.0 : g_transmittance;
 #if SWARD_FAMILIES == 1
   Level soilLevel = layered;
 #else

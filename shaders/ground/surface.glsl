@@ -10,6 +10,9 @@ uniform float u_slicesFrom;    // |N.E| from which the march draws slices
 uniform float u_slicesAll;     // and from which it draws nothing else
 uniform float u_exposure;
 uniform float u_hazePerM;      // extinction of aerial perspective
+uniform float u_gridBendTiles;  // largest shift of the tiles' grid
+uniform float u_bendTurns;      // turns a tile of its wave
+uniform vec2 u_bendPhase;       // turns at the local cell, of the shift along x and along y
 uniform float u_macroFadePerM;  // 1 / distance at which a pixel covers the macro variation
 uniform samplerBuffer t_horizon;  // sky radiance at the horizon by the azimuth's diamond angle
 
@@ -17,7 +20,8 @@ uniform samplerBuffer t_horizon;  // sky radiance at the horizon by the azimuth'
 struct Walk {
   vec2 place;       // in tiles, where it starts
   vec2 slope;       // tiles a metre
-  float slopeZ;     // of the height, never 0
+  vec2 bend;        // phases of the waves that shift x and y, where it starts
+  float slopeZ;     // of the height, within the shell, at least kLeastSlope
   float path;       // 1 / |slopeZ|
   float heightM;    // where it starts
   float tEnter;     // from the eye to the shell; 0 inside
@@ -25,6 +29,13 @@ struct Walk {
   float tEnd;       // to the soil or the shell's top; negative for rays that miss the shell
   float footprint;  // of a pixel, a little way into the shell, metres
 };
+
+// A wave that shifts tiles along an axis by their place on the other, so that rows of tiles do not run straight to a
+// vanishing point; a smoothed triangle stands for the sine.
+float gridBend(float turns) {
+  float triangle = abs(fract(turns) - 0.5) * 4.0 - 1.0;
+  return u_gridBendTiles * triangle * (1.5 - 0.5 * triangle * triangle);
+}
 
 Walk startWalk(vec3 d) {
   Walk walk;
@@ -35,14 +46,16 @@ Walk startWalk(vec3 d) {
 #endif
   bool above = u_eyeM > u_heightM;
   bool down = walk.slopeZ < 0.0;
-  float inverse = 1.0 / walk.slopeZ;
-  walk.path = abs(inverse);
   walk.slope = d.xy * u_tilesPerM;
-  walk.tEnter = above && down ? (u_heightM - u_eyeM) * inverse : 0.0;
+  walk.tEnter = above && down ? (u_heightM - u_eyeM) / walk.slopeZ : 0.0;
   walk.tStart = max(walk.tEnter, kNearestM);
-  walk.tEnd = above && !down ? -1.0 : ((down ? 0.0 : u_heightM) - u_eyeM) * inverse - walk.tStart;
   walk.heightM = u_eyeM + walk.slopeZ * walk.tStart;
-  walk.place = mapPlace(u_eyeTiles + walk.slope * walk.tStart);
+  walk.slopeZ = down ? min(walk.slopeZ, -kLeastSlope) : max(walk.slopeZ, kLeastSlope);
+  walk.path = 1.0 / abs(walk.slopeZ);
+  walk.tEnd = above && !down ? -1.0 : (down ? walk.heightM : u_heightM - walk.heightM) * walk.path;
+  vec2 tiles = u_eyeTiles + walk.slope * walk.tStart;
+  walk.place = mapPlace(tiles);
+  walk.bend = tiles.yx * u_bendTurns + u_bendPhase;
   walk.footprint = (walk.tEnter + min(kLevelShare * max(walk.tEnd, 0.0), kLevelReachM)) * u_pixelAngle;
   return walk;
 }
@@ -65,14 +78,15 @@ ivec2 chooseFamily(vec3 d, float lot) {
   return ivec2(slices ? 0 : 1, rest < x ? 0 : 1);
 }
 
-// Planes of a family along a walk: distance of the next and between two, number of the next and its step, and the power
-// of the transmittance: path over slab thickness, times slabs in a step.
+// Planes of a family along a walk: distance of the next and between two, its place on the normal and the step to the
+// one after it (slices: layers; blades: tiles), and what turns a stored texel to optical depth: path over slab
+// thickness, times slabs in a step.
 struct Planes {
   float t;
   float stride;
-  float number;
+  float place;
   float step;
-  float power;
+  float depthUnit;
 };
 
 Planes slicePlanes(Walk walk) {
@@ -82,9 +96,9 @@ Planes slicePlanes(Walk walk) {
   Planes planes;
   planes.stride = spacing * walk.path;
   planes.step = down ? 1.0 : -1.0;
-  planes.number = down ? ceil(under - 0.5) : floor(under - 0.5);
-  planes.t = (planes.number + 0.5 - under) * planes.step * planes.stride;
-  planes.power = walk.path;
+  planes.place = down ? ceil(under - 0.5) : floor(under - 0.5);
+  planes.t = (planes.place + 0.5 - under) * planes.step * planes.stride;
+  planes.depthUnit = walk.path * kDepthUnit;
   return planes;
 }
 
@@ -95,8 +109,20 @@ struct BladeWalk {
   float slope;
   float row;
   float rowSlope;
+  float bend;      // phase of the wave that shifts the planes along themselves, each plane as a whole
+  float bendSlope;
   int start;
 };
+
+// Where along the planes the ray is, in tiles.
+float alongAt(BladeWalk blades, float t) {
+  return blades.place + blades.slope * t + gridBend(blades.bend + blades.bendSlope * t);
+}
+
+// Where slices and soil are read: nearly straight below where the ray enters, one shift serves the whole ray.
+vec2 slicePlace(Walk walk, Level level) {
+  return walk.place + level.jitter + vec2(gridBend(walk.bend.x), gridBend(walk.bend.y));
+}
 
 BladeWalk startBlades(Walk walk, Level level, bool axisX, float random) {
   float slope = axisX ? walk.slope.x : walk.slope.y;  // along the normal
@@ -110,13 +136,16 @@ BladeWalk startBlades(Walk walk, Level level, bool axisX, float random) {
   float ahead = backward ? at - floor(at - 0.5) - 0.5 : ceil(at - 0.5) + 0.5 - at;
   ahead += floor(random * slabs);
   BladeWalk blades;
-  blades.planes.step = backward ? -slabs : slabs;
+  blades.planes.step = (backward ? -slabs : slabs) / float(u_slabs);
   blades.planes.stride = slabs / rate;
   blades.planes.t = ahead / rate;
-  blades.planes.number = floor(backward ? at - ahead : at + ahead);
-  blades.planes.power = blades.planes.stride * u_slabsPerM;
+  // The middle of a slab, found anew so that no rounding pushes it over a slab's border.
+  blades.planes.place = (floor(backward ? at - ahead : at + ahead) + 0.5) / float(u_slabs);
+  blades.planes.depthUnit = blades.planes.stride * u_slabsPerM * kDepthUnit;
   blades.place = (axisX ? walk.place.y : walk.place.x) + level.jitter.x;
   blades.slope = axisX ? walk.slope.y : walk.slope.x;
+  blades.bend = axisX ? walk.bend.y : walk.bend.x;
+  blades.bendSlope = slope * u_bendTurns;
   float rowsPerM = level.rows / u_heightM;
   blades.row = walk.heightM * rowsPerM + level.jitter.y;
   blades.rowSlope = walk.slopeZ * rowsPerM;
@@ -140,7 +169,7 @@ vec3 macroTint(vec2 place, float distanceM, vec3 random) {
 }
 
 vec3 throughHaze(vec3 radiance, vec3 d, float distanceM, float random) {
-  float clear = fastPower(kHalf, u_hazePerM * distanceM);
+  float clear = exp(-u_hazePerM * distanceM);
   vec3 horizon = texelFetch(t_horizon, int((diamondAngle(d.xy) + 0.25) * kHorizonTexels + random)).rgb;
   return mix(horizon, radiance, clear);
 }
@@ -148,7 +177,7 @@ vec3 throughHaze(vec3 radiance, vec3 d, float distanceM, float random) {
 // The picture of a ray that gathered `radiance` (over the relight scale) in the shell and has `left` of its
 // transmittance: soil or sky behind, macro variation, haze, exposure.
 vec4 finishGround(Walk walk, vec3 d, vec3 radiance, float left, Level soilLevel, vec3 random) {
-  Site site = sliceSite(soilLevel, u_sliceLayers - 1, walk.place + soilLevel.jitter + walk.slope * max(walk.tEnd, 0.0));
+  Site site = sliceSite(soilLevel, u_sliceLayers - 1, slicePlace(walk, soilLevel) + walk.slope * max(walk.tEnd, 0.0));
   vec3 soil = storedColour(fetchSite(site, soilLevel.start, u_sliceLayers, soilLevel.area, soilLevel.mean));
 #if SWARD_SKY
   bool soilSeen = walk.slopeZ < 0.0;

@@ -71,6 +71,7 @@ inline render::Frame frameOf(const glm::dvec3& position, const glm::dvec3& targe
   frame.height = height;
   frame.options.samples = samples;
   frame.options.macroVariation = 0.0;
+  frame.options.gridBendM = 0.0;
   return frame;
 }
 
@@ -80,6 +81,13 @@ inline double storageBound(double value, double scale) {
   const double step = 0.5 / 255.0 + 2e-5;
   const double root = std::sqrt(std::max(value, 0.0) / scale);
   return scale * (2.0 * root * step + step * step) + 1e-6;
+}
+
+/// The same for coverage a, whose optical depth -ln(1 - 0.985 a) is stored as its root over that of full coverage.
+inline double coverageBound(double coverage) {
+  const double full = -std::log(1.0 - 0.985);
+  const double depth = -std::log(1.0 - 0.985 * coverage);
+  return (1.0 - 0.985 * coverage) / 0.985 * storageBound(depth, full);
 }
 
 }  // namespace sward::testing

@@ -1,7 +1,7 @@
 // All constants of the ground's look in one place. core/render/ground_pass.cpp repeats those marked (C++).
 
 const float kTransmittanceEnd = 0.04;  // a ray with less left is opaque
-const int kLotPixels = 4;           // side of the squares of pixels that draw lots between families together
+const int kLotPixels = 2;           // side of the squares of pixels that draw lots between families together
 const int kMaxSteps = 160;           // planes that a ray may cross
 const int kMaxBlendedBlades = 64;    // of each direction that the blended methods composite
 const float kHeightSteps = 20.0;     // distant rays take at least this many steps through the shell's height

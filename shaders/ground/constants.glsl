@@ -4,7 +4,8 @@ const float kTransmittanceEnd = 0.04;  // a ray with less left is opaque
 const int kLotPixels = 2;           // side of the squares of pixels that draw lots between families together
 const int kMaxSteps = 160;           // planes that a ray may cross
 const int kMaxBlendedBlades = 64;    // of each direction that the blended methods composite
-const float kHeightSteps = 20.0;     // distant rays take at least this many steps through the shell's height
+const float kHeightSteps = 12.0;     // distant rays take at least this many steps through the shell's height
+const float kStridePixels = 3.0;     // what a ray may sink in a step that skips blade slabs: plants there are thin as pixels
 const float kNearestM = 0.12;        // planes nearer than this to the eye are left out
 // A ray's mip level is that of a point this share of its way through the shell, at most so far into it.
 const float kLevelShare = 0.3;

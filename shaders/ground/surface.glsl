@@ -129,8 +129,8 @@ BladeWalk startBlades(Walk walk, Level level, bool axisX, float random) {
   float place = axisX ? walk.place.x : walk.place.y;
   bool backward = slope < 0.0;
   float rate = max(abs(slope), 1e-6) * float(u_slabs);  // slabs a metre
-  // Where the ray sinks by less than a pixel between two slabs, it may skip some.
-  float wanted = min(walk.tEnter * u_pixelAngle, u_heightM / kHeightSteps) * walk.path;
+  // Where the ray sinks by less than a few pixels between two slabs, it may skip some.
+  float wanted = min(kStridePixels * u_pixelAngle * walk.tEnter, u_heightM / kHeightSteps) * walk.path;
   float slabs = max(1.0, floor(wanted * rate));
   float at = place * float(u_slabs);
   float ahead = backward ? at - floor(at - 0.5) - 0.5 : ceil(at - 0.5) + 0.5 - at;

@@ -43,7 +43,7 @@ double storedCoverage(double coverage) {
   return std::round(coverage * 255.0) / 255.0;
 }
 
-constexpr double kOpaque = 0.985;  // of shaders/ground/constants.glsl
+constexpr double kOpaque = 0.985;  // of shaders/include/layout.glsl
 
 TEST(March, AnEvenMediumLetsThroughWhatBeerAndLambertSay) {
   auto stage = makeStage();

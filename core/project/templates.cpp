@@ -17,25 +17,26 @@ Plant grass(const std::string& name, double share, double densityPerM2) {
 }
 
 // Plants of a meadow are even and many: what stands out on one tile is seen again on every tile that shares its edge.
+// The tallest are not much taller than the rest: rays would cross a high shell of almost nothing.
 
 Plant tallGrass() {
   Plant plant = grass("tall grass", 0.46, 700.0);
   plant.grass.heightM = 0.42;
-  plant.grass.heightVariation = 0.20;
+  plant.grass.heightVariation = 0.15;
   plant.grass.widthM = 0.0055;
   plant.grass.bendDeg = 60.0;
   plant.grass.leanDeg = 14.0;
   plant.grass.rootColour = {0.085, 0.120, 0.030};
   plant.grass.tipColour = {0.200, 0.300, 0.060};
   plant.grass.colourVariation = 0.10;
-  plant.sizeVariation = 0.15;
+  plant.sizeVariation = 0.10;
   return plant;
 }
 
 Plant fineGrass() {
   Plant plant = grass("fine grass", 0.40, 1200.0);
   plant.grass.heightM = 0.27;
-  plant.grass.heightVariation = 0.20;
+  plant.grass.heightVariation = 0.15;
   plant.grass.widthM = 0.004;
   plant.grass.bladesPerPlant = 10;
   plant.grass.bendDeg = 75.0;
@@ -43,13 +44,13 @@ Plant fineGrass() {
   plant.grass.rootColour = {0.080, 0.115, 0.035};
   plant.grass.tipColour = {0.250, 0.320, 0.100};
   plant.grass.colourVariation = 0.10;
-  plant.sizeVariation = 0.15;
+  plant.sizeVariation = 0.10;
   return plant;
 }
 
 Plant seedStems() {
   Plant plant = grass("seed stems", 0.04, 500.0);
-  plant.grass.heightM = 0.44;
+  plant.grass.heightM = 0.37;
   plant.grass.heightVariation = 0.10;
   plant.grass.widthM = 0.004;
   plant.grass.bladesPerPlant = 2;
@@ -60,7 +61,7 @@ Plant seedStems() {
   plant.grass.tipColour = {0.30, 0.31, 0.14};
   plant.grass.seedHeadColour = {0.33, 0.32, 0.16};
   plant.grass.colourVariation = 0.08;
-  plant.sizeVariation = 0.10;
+  plant.sizeVariation = 0.08;
   return plant;
 }
 

@@ -144,7 +144,7 @@ Project lawn() {
   Project project;
   project.name = "Lawn";
   project.patch.sideM = 1.0;
-  Plant blades = grass("lawn grass", 0.95, 2600.0);
+  Plant blades = grass("lawn grass", 0.65, 2600.0);
   blades.grass.heightM = 0.055;
   blades.grass.heightVariation = 0.15;
   blades.grass.widthM = 0.0032;
@@ -156,10 +156,15 @@ Project lawn() {
   blades.grass.rootColour = {0.080, 0.115, 0.032};
   blades.grass.tipColour = {0.150, 0.250, 0.050};
   blades.grass.colourVariation = 0.10;
-  Plant leaves = clover(0.05, 700.0, 0.045);
-  leaves.clover.headShare = 0.0;
-  leaves.clover.leafColour = {0.105, 0.185, 0.040};
-  project.patch.plants = {blades, leaves};
+  Plant fescue = blades;
+  fescue.name = "fine fescue";
+  fescue.share = 0.35;
+  fescue.densityPerM2 = 3200.0;
+  fescue.grass.heightM = 0.05;
+  fescue.grass.widthM = 0.0022;
+  fescue.grass.bendDeg = 65.0;
+  fescue.grass.tipColour = {0.165, 0.240, 0.065};
+  project.patch.plants = {blades, fescue};
   project.sun.angles = {285.0, 38.0};
   project.views = views(0.06, 1.1);
   setTheScene(project);

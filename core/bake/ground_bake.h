@@ -12,7 +12,7 @@ namespace sward::bake {
 /// Everything that a renderer needs to draw one kind of ground, plain data.
 struct GroundBake {
   double patchSideM = 1.0;
-  double heightM = 0.0;  ///< top of the shell over the ground; 0: bare soil
+  double heightM = 0.0;  ///< top of the shell over the ground, at least 1 cm, also over bare soil
   tiles::TileSet tiles;
   lpt::LayerStack slices;  ///< images = tiles with aprons; side() texels square
   lpt::LayerStack soil;    ///< images = tiles with aprons; 1 layer, PTM, 1 channel

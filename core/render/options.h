@@ -19,8 +19,9 @@ struct RenderOptions {
   int samples = 16;             ///< sub-pixel samples of a picture
   double macroVariation = 0.12;  ///< relative brightness variation over metres; 0: none
   double macroScaleM = 6.0;
-  double gridBendM =
-      0.7;  ///< largest shift of the tiles' grid by slow waves, so that its rows are not straight; 0: none
+  /// Largest shift of the tiles' grid by slow waves, so that its rows run to no vanishing point; 0: none. A ray takes
+  /// the shift of the place where it enters the shell.
+  double gridBendM = 0.7;
   bool operator==(const RenderOptions&) const = default;
 };
 

@@ -19,14 +19,12 @@ namespace sward {
 namespace {
 
 constexpr int kTileTexels = 64;
-constexpr int kTilesAcross = 10;
+constexpr int kTilesAcross = 14;
 constexpr int kPixels = kTileTexels * kTilesAcross;
 
-/// The meadow of the template, sampled coarsely so that it bakes in a few seconds.
+/// The meadow of the template, its blades and lights sampled coarsely so that it bakes in a few seconds.
 project::Project coarseMeadow() {
   project::Project project = project::fromTemplate("meadow").value();
-  project.sampling.sliceSubSamples = 2;
-  project.sampling.slices = 8;
   project.sampling.bladeWidth = 256;
   project.sampling.bladeHeight = 32;
   project.sampling.blades = 8;
@@ -132,7 +130,8 @@ TEST(Meadow, TileBordersCannotBeFound) {
     // The same tiles without regard to their edges: only the borders change, and the measure sees it.
     std::vector<double> change = stepProfile(unmatched, vertical);
     for (std::size_t i = 0; i < change.size(); ++i) change[i] -= profile[i];
-    EXPECT_GT(lastStandsOut(change), 5.0);
+    RecordProperty(vertical ? "rows" : "columns", std::to_string(lastStandsOut(change)));
+    EXPECT_GT(lastStandsOut(change), 4.0);
   }
 }
 
@@ -164,7 +163,10 @@ TEST(Meadow, LeavesGlowAgainstTheLight) {
   render::Frame frame = eyeHeightFrame();
   frame.camera = scene::cameraFromView({"north", {0.0, -5.0, 1.3}, {0.0, 0.0, 0.6}, 35.0, 0.0}).value();
   const auto meanGrass = [&](double azimuthDeg) {
-    const scene::Daylight daylight(scene::directionFromAngles({azimuthDeg, 20}), {}, {});
+    // Without the sky, whose blue share differs as the sun goes round.
+    scene::SkyOptions dark;
+    dark.intensity = 0.0;
+    const scene::Daylight daylight(scene::directionFromAngles({azimuthDeg, 20}), {}, dark);
     const image::Image picture = draw(meadowGround(), gpu::Device::Egl, frame, daylight);
     glm::dvec3 sum(0.0);
     for (int y = picture.height * 2 / 3; y < picture.height; ++y) {

@@ -30,6 +30,20 @@ function(sward_library name)
     PRIVATE sward_compile_options ${ARG_PRIVATE_LIBRARIES})
 endfunction()
 
+# sward_editor_library(NAME [DEPENDS folders of editor ...] [CORE folders of core ...] [LIBRARIES ...] [PRIVATE_LIBRARIES ...])
+# The same for a folder of editor/: builds sward_editor_NAME, includes start at editor/ or core/.
+function(sward_editor_library name)
+  cmake_parse_arguments(ARG "" "" "DEPENDS;CORE;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  add_library(sward_editor_${name} STATIC ${sources})
+  target_include_directories(sward_editor_${name} PUBLIC ${PROJECT_SOURCE_DIR}/editor)
+  list(TRANSFORM ARG_DEPENDS PREPEND sward_editor_)
+  list(TRANSFORM ARG_CORE PREPEND sward_)
+  target_link_libraries(sward_editor_${name}
+    PUBLIC ${ARG_DEPENDS} ${ARG_CORE} ${ARG_LIBRARIES}
+    PRIVATE sward_compile_options ${ARG_PRIVATE_LIBRARIES})
+endfunction()
+
 # sward_test(NAME [DEPENDS folders of core ...] [LIBRARIES ...])
 # Builds test_NAME from every .cpp of the current folder and registers each of its GoogleTest cases with CTest.
 function(sward_test name)

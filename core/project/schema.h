@@ -21,6 +21,15 @@ struct Spec {
   double high = std::numeric_limits<double>::max();
   const char* unit = "";
   Role role = Role::Shape;
+  const char* label = "";  ///< the field's name for people, such as "Blade height"
+  const char* help = "";   ///< what it decides, in a sentence or two: the editor's tooltip
+
+  constexpr Spec says(const char* newLabel, const char* newHelp) const {
+    Spec spec = *this;
+    spec.label = newLabel;
+    spec.help = newHelp;
+    return spec;
+  }
 };
 constexpr Spec range(double low, double high, const char* unit = "", Role role = Role::Shape) {
   return {low, high, unit, role};

@@ -70,6 +70,34 @@ TEST(Layout, IncludesFollowTheArrows) {
   EXPECT_GT(lines, 100);
 }
 
+/// The same for editor/: what each folder of it may include of the others and of core/.
+TEST(Layout, EditorIncludesFollowTheArrows) {
+  const std::set<std::string> core{"base", "image", "mesh",  "scene", "trace", "lpt",
+                                   "tiles", "project", "bake", "gpu",  "render", "export", "report"};
+  const std::map<std::string, std::set<std::string>> allowed{
+      {"document", {"base", "project"}},
+      {"live", {"base", "image", "mesh", "scene", "trace", "lpt", "tiles", "project", "bake", "gpu", "render"}},
+      {"widgets", {"base", "scene", "project"}},
+      {"panels", {"document", "live", "widgets"}},
+      {"app", {"document", "live", "widgets", "panels"}},
+      {"commands", {"document", "live", "widgets", "panels", "app"}},
+  };
+  const std::regex include("#include \"([a-z_]+)/([a-z_0-9]+\\.h)\"");
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(SWARD_SOURCE_DIR) / "editor")) {
+    if (!isSource(entry.path())) continue;
+    const std::string folder = entry.path().parent_path().filename().string();
+    const auto folders = allowed.find(folder);
+    ASSERT_NE(folders, allowed.end()) << folder << " is not in the table of folders";
+    const bool joins = folder == "panels" || folder == "app" || folder == "commands";
+    const std::string text = base::readTextFile(entry.path()).value();
+    for (std::sregex_iterator it(text.begin(), text.end(), include), end; it != end; ++it) {
+      const std::string target = (*it)[1];
+      const bool fine = target == folder || folders->second.contains(target) || (joins && core.contains(target));
+      EXPECT_TRUE(fine) << entry.path() << " includes " << (*it)[0];
+    }
+  }
+}
+
 TEST(Layout, HeavyLibrariesStayInTheirFolders) {
   const std::map<std::string, std::set<std::string>> homes{
       {"embree3/", {"trace", "report", "bake"}},

@@ -1,0 +1,78 @@
+#pragma once
+
+#include "bake/ground_bake.h"
+#include "base/result.h"
+#include "gpu/context.h"
+#include "project/project.h"
+#include "render/view_mode.h"
+#include "scene/options.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sward::editor {
+
+/// Two halves of one picture: what is drawn right of the split, and how the two are shown.
+struct Comparison {
+  enum class Show { Split, Difference };
+  Show show = Show::Split;
+  double splitAt = 0.5;           ///< of the width
+  render::GroundMethod method{};  ///< of the right half; the left has the project's own
+  /// A bake of another basis for the right half; none: the same ground drawn by the other method.
+  std::shared_ptr<const bake::GroundBake> ground;
+  double differenceGain = 4.0;
+};
+
+/// A picture that the viewport wants.
+struct ViewRequest {
+  std::shared_ptr<const project::Project> project;
+  std::shared_ptr<const bake::GroundBake> ground;
+  scene::View view;
+  int width = 1280, height = 720;
+  render::ViewMode mode;
+  std::optional<Comparison> comparison;
+  bool moving = false;  ///< the camera or a slider moves: half resolution, one sample
+  std::uint64_t id = 0;
+};
+
+/// A finished or growing picture, sRGB with alpha 255, rows from the top.
+struct ViewPicture {
+  std::uint64_t id = 0;  ///< of the request
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;
+  int samples = 0;      ///< drawn so far
+  bool final = false;   ///< all samples of the project's output: what `sward render` writes
+  double drawMs = 0.0;  ///< of the last sample
+};
+
+/// Draws the viewport on a thread and a context of its own, so that no picture ever holds up the UI. A newer request
+/// replaces the older one after the sample being drawn; pictures grow sample by sample up to the project's number.
+class ViewService {
+ public:
+  struct Options {
+    gpu::Device device = gpu::Device::Auto;
+    std::function<void()> onPicture;  ///< called from the service's thread; may be empty
+  };
+  explicit ViewService(Options options);
+  ~ViewService();
+  ViewService(const ViewService&) = delete;
+  ViewService& operator=(const ViewService&) = delete;
+
+  void request(ViewRequest request);
+  /// The newest picture not yet taken.
+  std::optional<ViewPicture> tryPop();
+  /// Of the newest request, when it could not be drawn.
+  std::optional<Error> error() const;
+  /// What draws; empty until the context exists.
+  std::optional<gpu::DeviceInfo> device() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> m_impl;
+};
+
+}  // namespace sward::editor

@@ -1,0 +1,144 @@
+#pragma once
+
+#include "app/actions.h"
+#include "app/dialogs.h"
+#include "app/live_link.h"
+#include "app/palette.h"
+#include "app/stall_meter.h"
+#include "app/ui_gl.h"
+#include "document/autosave.h"
+#include "document/document.h"
+#include "document/file_watch.h"
+#include "document/preferences.h"
+#include "panels/curve_panel.h"
+#include "panels/day_panel.h"
+#include "panels/inspector.h"
+#include "panels/light_panel.h"
+#include "panels/outliner.h"
+#include "panels/panel_context.h"
+#include "panels/viewport.h"
+#include "widgets/file_dialog.h"
+#include "widgets/item_log.h"
+#include "widgets/toasts.h"
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sward::editor {
+
+/// How the editor is started.
+struct ApplicationOptions {
+  std::optional<std::filesystem::path> project;  ///< none: the sample, or what was open last
+  std::vector<std::string> overrides;            ///< of --set: one unsaved edit
+  std::filesystem::path cacheFolder;
+  int threads = 0;
+  std::optional<gpu::Device> device;  ///< none: the preferences'
+  std::filesystem::path itemLog;      ///< where each frame's items are written for tests; empty: nowhere
+  std::string version;
+};
+
+/// The editor apart from its window: document, services, panels and dialogs. One frame() call draws all of it with
+/// ImGui, whatever context and event source stand behind. Belongs to the UI thread.
+class Application : public EditSink {
+ public:
+  /// `wake` is called from any thread when frame() has something new to show. `gl` outlives the application.
+  Application(ApplicationOptions options, const UiGl& gl, std::function<void()> wake);
+  ~Application() override;
+
+  /// Takes what the services have, looks after autosave and files; true when a frame should be drawn.
+  bool poll(double seconds);
+  /// Between ImGui::NewFrame() and ImGui::Render().
+  void frame(double seconds, int width, int height);
+  /// After the frame was shown: how long it took from its event.
+  void frameShown(double milliseconds);
+
+  /// Seconds at which a frame is wanted without any event; none: only when something happens.
+  std::optional<double> nextWake() const;
+
+  void dropped(const std::vector<std::filesystem::path>& files);
+  /// The window's close button: asks about unsaved changes first.
+  void closeRequested();
+  bool wantsToQuit() const { return m_quit; }
+  std::string title() const;
+  /// The theme or scale changed: fonts are to be loaded anew before the next frame.
+  bool takeStyleChange() { return std::exchange(m_styleChanged, false); }
+  Preferences& preferences() { return m_preferences; }
+  const StallMeter& stalls() const { return m_stalls; }
+  const LiveLink& live() const { return *m_live; }
+  const Document& document() const { return *m_document; }
+  UiState& ui() { return m_ui; }
+
+  // EditSink
+  void edit(const std::string& name, const std::function<void(project::Project&)>& change,
+            const std::string& mergeKey) override;
+  void closeStep() override;
+  void run(const std::string& action) override;
+  void notice(const std::string& text) override;
+
+ private:
+  // application_actions.cpp
+  void registerActions();
+  void registerFileActions();
+  void registerEditActions();
+  void registerPlantActions();
+  void registerViewActions();
+  void registerHelpActions();
+  void handleShortcuts();
+
+  // application_files.cpp
+  void openAtStart();
+  void open(const std::filesystem::path& file);
+  void replaceDocument(Document document);
+  void save(const std::filesystem::path& file, const std::function<void()>& then = {});
+  void saveAs(const std::function<void()>& then = {});
+  void revert();
+  /// Runs `then` at once, or after the user said what to do with unsaved changes.
+  void whenSaved(const std::function<void()>& then);
+  void addPlantFrom(const std::filesystem::path& mesh);
+  void watchFiles(double seconds);
+  void chooseFile(FileDialogOptions options, std::function<void(const std::filesystem::path&)> then);
+
+  // application_shell.cpp
+  PanelContext context(double seconds);
+  void drawMenuBar();
+  void drawToolbar();
+  void drawPanels(PanelContext& context, int width, int height);
+  void drawBottom(PanelContext& context);
+  void drawDialogs(PanelContext& context);
+  float splitter(const char* id, bool vertical, float at, float low, float high, float sign);
+  void writeItemLog();
+
+  ApplicationOptions m_options;
+  Preferences m_preferences;
+  std::unique_ptr<Document> m_document;
+  std::unique_ptr<Autosave> m_autosave;
+  std::unique_ptr<FileWatch> m_watch;
+  std::unique_ptr<LiveLink> m_live;
+  ActionTable m_actions;
+  UiState m_ui;
+  StallMeter m_stalls;
+  Toasts m_toasts;
+  ItemLog m_itemLog;
+  std::string m_itemLogText;
+
+  OutlinerPanel m_outliner;
+  InspectorPanel m_inspector;
+  ViewportPanel m_viewport;
+  CurvePanel m_curves;
+  LightPanel m_lights;
+  DayPanel m_day;
+  CommandPalette m_palette;
+  Dialogs m_dialogs;
+  FileDialog m_fileDialog;
+  std::function<void(const std::filesystem::path&)> m_fileChosen;
+
+  double m_seconds = 0.0;
+  bool m_quit = false;
+  bool m_styleChanged = true;
+};
+
+}  // namespace sward::editor

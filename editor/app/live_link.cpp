@@ -1,0 +1,144 @@
+#include "app/live_link.h"
+
+#include "project/value_hash.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace sward::editor {
+namespace {
+
+/// A picture answers at half resolution until nothing moved for so long.
+constexpr double kSettleSeconds = 0.25;
+constexpr std::size_t kPictureTimes = 20;
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+render::GroundMethod methodOf(CompareState::Other other, render::GroundMethod own) {
+  switch (other) {
+    case CompareState::Other::March:
+      return render::GroundMethod::March;
+    case CompareState::Other::Blended:
+      return render::GroundMethod::BlendedNormalised;
+    case CompareState::Other::BlendedPaper:
+      return render::GroundMethod::BlendedPaper;
+    case CompareState::Other::Ptm:
+    case CompareState::Other::LptPaper:
+      return own;
+  }
+  return own;
+}
+
+}  // namespace
+
+LiveLink::LiveLink(const UiGl& gl, Options options)
+    : m_gl(gl),
+      m_bakes({options.cacheFolder, options.cacheLimitBytes, options.threads, options.wake}),
+      m_views({options.device, options.wake}),
+      m_thumbnails({options.wake}) {
+  m_state.thumbnails = &m_thumbnailTextures;
+}
+
+LiveLink::~LiveLink() {
+  m_gl.destroy(m_state.picture.texture);
+  for (const auto& [key, picture] : m_thumbnailTextures) m_gl.destroy(picture.texture);
+}
+
+bool LiveLink::poll() {
+  takeGrounds();
+  const bool picture = takePicture();
+  const bool thumbnails = takeThumbnails();
+  const BakeStatus before = m_state.bake;
+  m_state.bake = m_bakes.status();
+  m_state.viewError = m_views.error();
+  m_state.device = m_views.device();
+  const auto percent = [](const BakeStatus& status) { return static_cast<int>(status.fraction * 100.0); };
+  const bool status = before.running != m_state.bake.running || before.quality != m_state.bake.quality ||
+                      percent(before) != percent(m_state.bake) ||
+                      before.error.has_value() != m_state.bake.error.has_value();
+  return picture || thumbnails || status || m_groundChanged;
+}
+
+void LiveLink::takeGrounds() {
+  m_groundChanged = false;
+  while (auto baked = m_bakes.tryPop()) {
+    m_state.ground = std::move(baked->ground);
+    m_state.quality = baked->quality;
+    m_state.groundSeconds = baked->secondsSinceRequest;
+    m_groundRevision = baked->revision;
+    m_groundChanged = true;
+  }
+  if (m_otherBakes) {
+    while (auto baked = m_otherBakes->tryPop()) {
+      m_otherGround = std::move(baked->ground);
+      m_groundChanged = true;
+    }
+  }
+}
+
+bool LiveLink::takePicture() {
+  auto picture = m_views.tryPop();
+  if (!picture) return false;
+  m_state.picture.texture = m_gl.upload(m_state.picture.texture, picture->width, picture->height, picture->rgba);
+  m_state.picture.width = picture->width;
+  m_state.picture.height = picture->height;
+  m_state.samples = picture->samples;
+  m_state.pictureFinal = picture->final && picture->id == m_requestId;
+  m_state.drawMs = picture->drawMs;
+  m_pictureTimes.push_back(now());
+  if (m_pictureTimes.size() > kPictureTimes) m_pictureTimes.pop_front();
+  const double span = m_pictureTimes.back() - m_pictureTimes.front();
+  m_state.framesPerSecond = span > 0.0 ? static_cast<double>(m_pictureTimes.size() - 1) / span : 0.0;
+  return true;
+}
+
+bool LiveLink::takeThumbnails() {
+  bool any = false;
+  while (auto thumbnail = m_thumbnails.tryPop()) {
+    PanelPicture& picture = m_thumbnailTextures[thumbnail->key];
+    picture.texture = m_gl.upload(picture.texture, thumbnail->width, thumbnail->height, thumbnail->rgba);
+    picture.width = thumbnail->width;
+    picture.height = thumbnail->height;
+    any = true;
+  }
+  return any;
+}
+
+void LiveLink::update(const Document& document, const UiState& ui, int width, int height, double seconds) {
+  if (document.revision() != m_revision) {
+    m_revision = document.revision();
+    m_bakes.request(document.snapshot(), m_revision);
+    requestThumbnails(document);
+  }
+  updateOther(document, ui.compare);
+  m_state.stale = m_bakes.status().running || m_groundRevision < m_revision;
+  if (!m_state.ground || width < 1 || height < 1) return;
+  const bool moved = ui.inputActive || seconds - ui.lastMotion < kSettleSeconds;
+  Wanted wanted{document.snapshot(), m_state.ground, ui.camera, width, height, ui.mode, ui.compare, moved};
+  if (m_wanted == wanted) return;
+  m_settleAt = moved ? std::optional(seconds + kSettleSeconds) : std::nullopt;
+  requestPicture(wanted);
+  m_wanted = std::move(wanted);
+}
+
+void LiveLink::updateOther(const Document& document, const CompareState& compare) {
+  const bool needed =
+      compare.on && (compare.other == CompareState::Other::Ptm || compare.other == CompareState::Other::LptPaper);
+  if (!needed) {
+    m_otherRevision = 0;
+    return;
+  }
+  if (!m_otherBakes) m_otherBakes = std::make_unique<BakeService>(m_bakeOptions);
+  if (m_otherRevision == document.revision() && m_otherOther == compare.other) return;
+  auto other = std::make_shared<project::Project>(document.project());
+  other->fit.basis = compare.other == CompareState::Other::Ptm ? lpt::Basis::Ptm : lpt::Basis::Lpt;
+  other->fit.paper = compare.other == CompareState::Other::LptPaper;
+  m_otherBakes->request(std::move(other), document.revision());
+  m_otherRevision = document.revision();
+  m_otherOther = compare.other;
+  m_otherGround.reset();
+}
+
+}  // namespace sward::editor

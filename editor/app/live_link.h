@@ -1,0 +1,77 @@
+#pragma once
+
+#include "app/ui_gl.h"
+#include "document/document.h"
+#include "document/preferences.h"
+#include "live/bake_service.h"
+#include "live/thumbnail_service.h"
+#include "live/view_service.h"
+#include "panels/panel_context.h"
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace sward::editor {
+
+/// Ties the document to the services: asks for bakes, pictures and thumbnails as it changes, and keeps the textures that
+/// show their results. Belongs to the UI thread and its OpenGL context.
+class LiveLink {
+ public:
+  struct Options {
+    std::filesystem::path cacheFolder;
+    std::uint64_t cacheLimitBytes = 0;
+    int threads = 0;
+    gpu::Device device = gpu::Device::Auto;
+    std::function<void()> wake;  ///< called from other threads when there is something to show
+  };
+  LiveLink(const UiGl& gl, Options options);
+  ~LiveLink();
+  LiveLink(const LiveLink&) = delete;
+  LiveLink& operator=(const LiveLink&) = delete;
+
+  /// Takes what the services finished; true when the window should be drawn again.
+  bool poll();
+  /// Asks for what this frame shows; `width` and `height` of the viewport in pixels.
+  void update(const Document& document, const UiState& ui, int width, int height, double seconds);
+  /// A moment at which the window should be drawn again by itself: a picture at full resolution follows a drag.
+  std::optional<double> nextWake() const { return m_settleAt; }
+
+  const LiveState& state() const { return m_state; }
+  /// Everything of the newest request is on screen: ground at full quality, all samples.
+  bool settled() const;
+  void cancelBake();
+
+ private:
+  struct Wanted {
+    Snapshot project;
+    std::shared_ptr<const bake::GroundBake> ground;
+    scene::View view;
+    int width = 0, height = 0;
+    render::ViewMode mode;
+    CompareState compare;
+    bool moving = false;
+    bool operator==(const Wanted&) const = default;
+  };
+  void takeGrounds();
+  bool takePicture();
+  bool takeThumbnails();
+  void requestPicture(const Wanted& wanted);
+  void requestThumbnails(const Document& document);
+
+  const UiGl& m_gl;
+  BakeService m_bakes;
+  ViewService m_views;
+  ThumbnailService m_thumbnails;
+  LiveState m_state;
+  std::map<std::string, PanelPicture> m_thumbnailTextures;
+  std::uint64_t m_revision = 0, m_groundRevision = 0;
+  std::optional<Wanted> m_wanted;
+  std::uint64_t m_requestId = 0;
+  std::optional<double> m_settleAt;
+  std::deque<double> m_pictureTimes;
+};
+
+}  // namespace sward::editor

@@ -1,0 +1,192 @@
+#include "panels/inspector.h"
+
+#include "panels/thumbnails.h"
+#include "panels/view_edits.h"
+#include "widgets/icons.h"
+#include "widgets/item_log.h"
+#include "widgets/sky_dome.h"
+#include "widgets/theme.h"
+
+#include "project/limits.h"
+
+#include <algorithm>
+#include <memory>
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+namespace sward::editor {
+namespace {
+
+std::string titleOf(const PanelContext& context) {
+  const Selection& selection = context.ui.selection;
+  switch (selection.kind) {
+    case Selection::Kind::Ground:
+      return "Ground";
+    case Selection::Kind::Plant:
+      return context.project->patch.plants[selection.index].name;
+    case Selection::Kind::Lights:
+      return "Light directions";
+    case Selection::Kind::Tiles:
+      return "Tiles";
+    case Selection::Kind::SunSky:
+      return "Sun and sky";
+    case Selection::Kind::View:
+      return "View: " + context.project->views[selection.index].name;
+    case Selection::Kind::Sampling:
+      return "Layers";
+    case Selection::Kind::Fit:
+      return "Relighting";
+    case Selection::Kind::Render:
+      return "Picture";
+  }
+  return {};
+}
+
+void heading(const char* text) {
+  ImGui::Dummy({0.0f, px(8.0f)});
+  const FontScope font(theme().fonts.strong);
+  ImGui::TextUnformatted(text);
+}
+
+}  // namespace
+
+FieldOptions InspectorPanel::options() const {
+  FieldOptions options;
+  options.filter = m_filter;
+  options.advanced = m_advanced;
+  options.problems = &m_problems;
+  return options;
+}
+
+void InspectorPanel::validate(const PanelContext& context) {
+  if (m_validated == context.document.revision()) return;
+  m_validated = context.document.revision();
+  m_problems = project::validate(*context.project);
+}
+
+template <typename Part>
+void InspectorPanel::fields(PanelContext& context, const std::string& path, const Part& part) {
+  // Widgets work on a copy; the step that is sent puts the whole part in place.
+  auto edited = std::make_shared<project::Project>(*context.project);
+  auto& value = part(*edited);
+  using Value = std::remove_reference_t<decltype(value)>;
+  static const Value kDefaults{};
+  const FieldEvents events = drawFields(path, value, kDefaults, options());
+  if (events.changed) {
+    context.edits.edit(
+        events.label, [&](project::Project& project) { part(project) = value; }, events.path);
+    m_editing = true;
+  }
+  answer(context, events);
+}
+
+void InspectorPanel::answer(PanelContext& context, const FieldEvents& events) {
+  if (events.finished) {
+    context.edits.closeStep();
+    m_editing = false;
+  }
+  if (!events.openCurve.empty()) {
+    context.ui.activeCurve = events.openCurve;
+    context.ui.bottomTab = BottomTab::Curves;
+    context.ui.showBottom = true;
+  }
+  if (!events.browse.empty()) context.edits.browse(events.browse, events.files);
+}
+
+void InspectorPanel::draw(PanelContext& context) {
+  validate(context);
+  head(context);
+  ImGui::BeginChild("##fields", {0.0f, 0.0f}, false);
+  const Selection selection = context.ui.selection;
+  switch (selection.kind) {
+    case Selection::Kind::Ground:
+      ground(context);
+      break;
+    case Selection::Kind::Plant:
+      plant(context, selection.index);
+      break;
+    case Selection::Kind::Lights:
+      fields(context, "lights", [](project::Project& p) -> auto& { return p.lights; });
+      ImGui::Dummy({0.0f, px(6.0f)});
+      if (ImGui::Button("Show the hemisphere")) {
+        context.ui.bottomTab = BottomTab::Lights;
+        context.ui.showBottom = true;
+      }
+      logItem("inspector.showLights");
+      break;
+    case Selection::Kind::Tiles:
+      fields(context, "tiles", [](project::Project& p) -> auto& { return p.tiles; });
+      break;
+    case Selection::Kind::SunSky:
+      sunAndSky(context);
+      break;
+    case Selection::Kind::View:
+      view(context, selection.index);
+      break;
+    case Selection::Kind::Sampling:
+      fields(context, "sampling", [](project::Project& p) -> auto& { return p.sampling; });
+      break;
+    case Selection::Kind::Fit:
+      fields(context, "fit", [](project::Project& p) -> auto& { return p.fit; });
+      break;
+    case Selection::Kind::Render:
+      fields(context, "render", [](project::Project& p) -> auto& { return p.render; });
+      heading("Size of the picture");
+      fields(context, "output", [](project::Project& p) -> auto& { return p.output; });
+      break;
+  }
+  ImGui::EndChild();
+  context.ui.inputActive = context.ui.inputActive || m_editing;
+}
+
+void InspectorPanel::head(PanelContext& context) {
+  {
+    const FontScope font(theme().fonts.heading);
+    ImGui::TextUnformatted(titleOf(context).c_str());
+  }
+  const float button = px(30.0f);
+  ImGui::SetNextItemWidth(std::max(ImGui::GetContentRegionAvail().x - button - px(8.0f), px(40.0f)));
+  ImGui::InputTextWithHint("##filter", "Find a value", &m_filter);
+  logItem("inspector.filter");
+  ImGui::SameLine();
+  const bool advanced = m_advanced;
+  if (advanced) ImGui::PushStyleColor(ImGuiCol_Button, theme().colours.accentFill);
+  if (ImGui::Button(icon::kTune, {button, 0.0f})) m_advanced = !m_advanced;
+  if (advanced) ImGui::PopStyleColor();
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip(m_advanced ? "Hide what few need" : "Show what few need, too");
+  logItem("inspector.advanced");
+  ImGui::Separator();
+}
+
+void InspectorPanel::plant(PanelContext& context, std::size_t index) {
+  const std::string path = "patch.plants[" + std::to_string(index) + "]";
+  fields(context, path, [index](project::Project& p) -> auto& { return p.patch.plants[index]; });
+}
+
+void InspectorPanel::ground(PanelContext& context) {
+  fields(context, "patch", [](project::Project& p) -> auto& { return p.patch; });
+}
+
+void InspectorPanel::view(PanelContext& context, std::size_t index) {
+  const std::string path = "views[" + std::to_string(index) + "]";
+  fields(context, path, [index](project::Project& p) -> auto& { return p.views[index]; });
+  // A view that the camera stands in takes the camera along.
+  if (context.ui.boundView == index && index < context.document.project().views.size())
+    context.ui.camera = context.document.project().views[index];
+  ImGui::Dummy({0.0f, px(6.0f)});
+  if (ImGui::Button("Put the camera here")) {
+    context.ui.camera = context.project->views[index];
+    context.ui.boundView = index;
+    context.ui.lastMotion = context.seconds;
+  }
+  logItem("inspector.viewGo");
+  ImGui::SameLine();
+  if (ImGui::Button("Update from the camera")) context.edits.run("view.update");
+  logItem("inspector.viewUpdate");
+  ImGui::SameLine();
+  if (ImGui::Button("Remove")) context.edits.run("view.remove");
+  logItem("inspector.viewRemove");
+}
+
+}  // namespace sward::editor

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "document/document.h"
+#include "live/bake_service.h"
+#include "live/thumbnail_service.h"
+#include "panels/ui_state.h"
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace sward::editor {
+
+/// Where panels send what the user wants; they never change a document themselves.
+class EditSink {
+ public:
+  virtual ~EditSink() = default;
+  /// As Document::edit.
+  virtual void edit(const std::string& name, const std::function<void(project::Project&)>& change,
+                    const std::string& mergeKey = {}) = 0;
+  /// Ends the open step: a drag was let go.
+  virtual void closeStep() = 0;
+  /// Runs an action of the table by its id, such as "plant.addFromFile".
+  virtual void run(const std::string& action) = 0;
+  /// Says something in passing.
+  virtual void notice(const std::string& text) = 0;
+};
+
+/// A texture that a panel shows.
+struct PanelPicture {
+  std::uint64_t texture = 0;  ///< an OpenGL name; 0: none yet
+  int width = 0, height = 0;
+};
+
+/// What the services have to show this frame.
+struct LiveState {
+  BakeStatus bake;
+  std::shared_ptr<const bake::GroundBake> ground;  ///< newest; null until the first is ready
+  Quality quality = Quality::Coarse;               ///< of `ground`
+  bool stale = false;                              ///< `ground` is of an older project than the document's
+  PanelPicture picture;
+  int samples = 0;
+  bool pictureFinal = false;
+  double drawMs = 0.0, framesPerSecond = 0.0;
+  std::optional<Error> viewError;
+  std::optional<gpu::DeviceInfo> device;
+  const std::map<std::string, PanelPicture>* thumbnails = nullptr;  ///< by plantKey()
+};
+
+/// What every panel is given.
+struct PanelContext {
+  const Document& document;
+  /// This frame's project: stays what it is while panels send edits.
+  Snapshot project;
+  EditSink& edits;
+  UiState& ui;
+  const LiveState& live;
+  double seconds = 0.0;  ///< since the program started
+  float scale = 1.0f;    ///< pixels a design pixel
+};
+
+}  // namespace sward::editor

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "document/selection.h"
+#include "live/view_service.h"
+#include "render/view_mode.h"
+#include "scene/options.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace sward::editor {
+
+/// What a drag in the viewport does.
+enum class ViewportTool { Orbit, Sun };
+/// What stands below the viewport.
+enum class BottomTab { Curves, Lights, Day, History };
+
+/// How the viewport compares two ways of drawing.
+struct CompareState {
+  bool on = false;
+  Comparison::Show show = Comparison::Show::Split;
+  double splitAt = 0.5;
+  /// What the right half shows: another way to draw the same bake, or another fit of the light response.
+  enum class Other { March, Blended, BlendedPaper, Ptm, LptPaper } other = Other::Blended;
+  double gain = 4.0;
+  bool operator==(const CompareState&) const = default;
+};
+
+/// State of the window that belongs to no document: never undone, never saved with the project.
+struct UiState {
+  Selection selection;
+  scene::View camera;                    ///< of the viewport; views of the project are places it can be put
+  std::optional<std::size_t> boundView;  ///< the camera is this view's: moving it edits the view
+  ViewportTool tool = ViewportTool::Orbit;
+  render::ViewMode mode;
+  CompareState compare;
+  BottomTab bottomTab = BottomTab::Curves;
+  std::string activeCurve;  ///< path of the curve that the curve panel edits
+  std::string fieldFilter;
+  bool showOutliner = true, showInspector = true, showBottom = true;
+  bool inputActive = false;     ///< a drag in the viewport or a field: pictures answer at half resolution
+  double lastMotion = -1e9;     ///< seconds; of the camera
+  std::optional<int> selectedLight;
+  bool playingDay = false;
+};
+
+}  // namespace sward::editor

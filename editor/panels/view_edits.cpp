@@ -1,0 +1,30 @@
+#include "panels/view_edits.h"
+
+#include "scene/lights.h"
+#include "scene/sun_sky.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sward::editor {
+namespace {
+
+constexpr double kLowestDeg = -10.0, kHighestDeg = 90.0;
+
+}  // namespace
+
+scene::SunAngles sunAnglesOf(const project::Project& project) {
+  if (!project.sun.byMoment) return project.sun.angles;
+  const auto direction = scene::sunDirection(project.sun);
+  return direction.ok() ? scene::anglesFromDirection(*direction) : project.sun.angles;
+}
+
+void turnSun(project::Project& project, double azimuthDeg, double elevationDeg) {
+  scene::SunAngles angles = sunAnglesOf(project);
+  angles.azimuthDeg = std::fmod(std::fmod(angles.azimuthDeg + azimuthDeg, 360.0) + 360.0, 360.0);
+  angles.elevationDeg = std::clamp(angles.elevationDeg + elevationDeg, kLowestDeg, kHighestDeg);
+  project.sun.byMoment = false;
+  project.sun.angles = angles;
+}
+
+}  // namespace sward::editor

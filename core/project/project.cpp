@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 
 namespace sward::project {
 namespace {
@@ -103,6 +104,13 @@ Result<Json> parseJson(const std::string& text, const std::string& file) {
 const scene::View* Project::view(const std::string& viewName) const {
   const auto found = std::find_if(views.begin(), views.end(), [&](const scene::View& v) { return v.name == viewName; });
   return found == views.end() ? nullptr : &*found;
+}
+
+bool Project::operator==(const Project& other) const {
+  const auto values = [](const Project& p) {
+    return std::tie(p.name, p.patch, p.lights, p.sampling, p.fit, p.tiles, p.sun, p.sky, p.render, p.views, p.output);
+  };
+  return values(*this) == values(other);
 }
 
 std::string toJson(const Project& project) {

@@ -78,6 +78,20 @@ TEST(ProjectJson, EveryFieldSurvivesTheRoundTrip) {
   }
 }
 
+TEST(ProjectJson, EveryFieldDecidesEquality) {
+  const Project full = parse(toJson(fullProject()), "p.sward").value();
+  const Json original = Json::parse(toJson(full));
+  for (const auto& field : test::leaves(original)) {
+    if (field.to_string() == "/version") continue;
+    Json edited = original;
+    edited[field] = changed(original[field]);
+    EXPECT_FALSE(parse(edited.dump(), "p.sward").value() == full) << field;
+  }
+  Project moved = full;
+  moved.folder = "elsewhere";
+  EXPECT_TRUE(moved == full) << "the folder is not part of the document";
+}
+
 TEST(ProjectJson, TextIsAFixedPoint) {
   for (const std::string& name : templateNames()) {
     const std::string text = toJson(fromTemplate(name).value());

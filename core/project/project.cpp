@@ -152,7 +152,7 @@ Result<void> save(const Project& project, const std::filesystem::path& file) {
   }
   // Nothing is saved that could not be opened again, such as a NaN.
   if (const auto again = parse(text, file); !again.ok()) return again.error();
-  return base::writeFileAtomically(file, text);
+  return base::writeFileAtomically(file, text, base::Sync::Yes);
 }
 
 }  // namespace sward::project

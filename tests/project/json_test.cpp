@@ -14,6 +14,7 @@
 namespace sward::project {
 namespace {
 
+using test::changed;
 using test::Json;
 using testing::HasSubstr;
 
@@ -36,28 +37,6 @@ Project fullProject() {
   project.sun.byMoment = true;
   project.sun.angles.azimuthDeg = 12.5;
   return project;
-}
-
-/// Another value of the same type that the field can hold.
-Json changed(const Json& value) {
-  if (value.is_boolean()) return !value.get<bool>();
-  if (value.is_number_float()) return value.get<double>() + 0.015625;
-  if (value.is_number()) return value.get<int>() + 1;
-  const auto text = value.get<std::string>();
-  const auto swapTo = [&](auto e) -> std::optional<std::string> {
-    using E = decltype(e);
-    if (!fromWord<E>(text)) return std::nullopt;
-    for (const auto& word : words(E{})) {
-      if (word.text != text) return std::string(word.text);
-    }
-    return std::nullopt;
-  };
-  for (const auto& word : {swapTo(PlantKind{}), swapTo(scene::LightPattern{}), swapTo(lpt::Basis{}),
-                           swapTo(tiles::SeamMethod{}), swapTo(tiles::SeamDomain{}), swapTo(tiles::MapMethod{}),
-                           swapTo(render::GroundMethod{}), swapTo(render::ViewTransform{})}) {
-    if (word) return *word;
-  }
-  return Json(text + "x");
 }
 
 TEST(ProjectJson, EveryFieldSurvivesTheRoundTrip) {

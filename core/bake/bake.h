@@ -2,6 +2,8 @@
 
 #include "bake/cache.h"
 #include "bake/ground_bake.h"
+#include "bake/quality.h"
+#include "base/hash.h"
 #include "base/job.h"
 #include "base/result.h"
 #include "project/project.h"
@@ -31,18 +33,38 @@ struct BakeReport {
   std::vector<std::string> warnings;  ///< what went wrong without ending the bake, such as a full cache disk
 };
 
+/// A ground that is wanted.
+struct GroundRequest {
+  const project::Project& project;  ///< valid, at full quality
+  Quality quality = Quality::Full;
+};
+
 /// Walks the bake graph (design.md) from the ground's end: a node whose result is cached asks nothing of its inputs.
 /// Holds the memory cache; the disk cache is optional. Not thread-safe: one per thread of work.
 class Baker {
  public:
+  struct Options {
+    /// Of results held in memory. The default is enough for the results of two or three projects of ordinary size; a
+    /// cold bake as a whole stays under 1 GiB.
+    std::uint64_t memoryLimitBytes = std::uint64_t{192} << 20;
+  };
   explicit Baker(std::optional<DiskCache> cache = {});
+  Baker(std::optional<DiskCache> cache, const Options& options);
   ~Baker();
   Baker(Baker&&) noexcept;
   Baker& operator=(Baker&&) noexcept;
 
-  /// The ground of a valid project. `report`, when given, is filled with what was done.
+  /// The ground of a valid project at full quality. `report`, when given, is filled with what was done.
   Result<std::shared_ptr<const GroundBake>> ground(const project::Project& project, const JobContext& job,
                                                    BakeReport* report = nullptr);
+  /// The same at any quality. Only what belongs to full quality is written to the disk cache.
+  Result<std::shared_ptr<const GroundBake>> ground(const GroundRequest& request, const JobContext& job,
+                                                   BakeReport* report = nullptr);
+  /// The key of that ground, which two requests share exactly when they give the same bytes. Reads asset files; errors:
+  /// the project is invalid, an asset is missing.
+  Result<base::Hash128> key(const GroundRequest& request);
+  /// Whether ground() would only have to look it up, in memory or on disk.
+  bool holds(const base::Hash128& groundKey) const;
 
  private:
   struct Impl;

@@ -140,6 +140,11 @@ std::optional<std::vector<std::byte>> DiskCache::get(const std::string& kind, co
   return std::move(data).value();
 }
 
+bool DiskCache::contains(const std::string& kind, const base::Hash128& key) const {
+  std::error_code code;
+  return fs::is_regular_file(entryPath(m_folder, kind, key), code);
+}
+
 Result<void> DiskCache::put(const std::string& kind, const base::Hash128& key, std::span<const std::byte> payload) {
   const fs::path path = entryPath(m_folder, kind, key);
   std::error_code code;

@@ -25,6 +25,8 @@ class DiskCache {
   static Result<DiskCache> open(const std::filesystem::path& folder, std::uint64_t limitBytes = std::uint64_t{4} << 30);
 
   std::optional<std::vector<std::byte>> get(const std::string& kind, const base::Hash128& key) const;
+  /// Whether there is an entry, sound or damaged.
+  bool contains(const std::string& kind, const base::Hash128& key) const;
   /// A full disk is an error; the bake itself goes on without the entry.
   Result<void> put(const std::string& kind, const base::Hash128& key, std::span<const std::byte> payload);
   /// Bytes of all entries.

@@ -5,6 +5,8 @@
 #include "mesh/gltf_read.h"
 #include "project/value_hash.h"
 
+#include <algorithm>
+
 #include <embree3/rtcore.h>
 
 namespace sward::bake {
@@ -157,6 +159,18 @@ lpt::FitOptions fitOptionsOf(const project::Project& project, trace::LayerSet se
   lpt::FitOptions options = project.fit;
   if (set == trace::LayerSet::Ground) options.basis = lpt::Basis::Ptm;
   return options;
+}
+
+bool sameGroundValues(const project::Project& a, const project::Project& b) {
+  const auto samePlant = [](const project::Plant& p, project::Plant q) {
+    q.name = p.name;
+    return p == q;
+  };
+  return a.folder == b.folder && a.patch.sideM == b.patch.sideM && a.patch.seed == b.patch.seed &&
+         a.patch.soil == b.patch.soil && a.lights == b.lights && a.sampling == b.sampling && a.fit == b.fit &&
+         a.tiles == b.tiles &&
+         std::equal(a.patch.plants.begin(), a.patch.plants.end(), b.patch.plants.begin(), b.patch.plants.end(),
+                    samePlant);
 }
 
 Result<GroundKeys> groundKeys(const project::Project& project, std::span<const glm::dvec3> lights) {

@@ -38,6 +38,10 @@ struct GroundKeys {
 /// The fit options of one layer set: the soil is a single layer and always PTM.
 lpt::FitOptions fitOptionsOf(const project::Project& project, trace::LayerSet set);
 
+/// Whether two projects say the same about the ground, so that their grounds are the same as long as their asset files
+/// are. Reads no file and hashes nothing: for a thread that must not wait. Two that differ may still give equal grounds.
+bool sameGroundValues(const project::Project& a, const project::Project& b);
+
 /// Reads asset files (errors: one is missing or unreadable), bakes nothing.
 Result<GroundKeys> groundKeys(const project::Project& project, std::span<const glm::dvec3> lights);
 

@@ -24,6 +24,8 @@ class MemoryCache {
   }
   /// Keeps a value of about `bytes`; one larger than the whole limit is not kept.
   void put(const base::Hash128& key, std::shared_ptr<const void> value, std::uint64_t bytes);
+  /// Without counting as a use.
+  bool contains(const base::Hash128& key) const { return m_entries.contains(key); }
   std::uint64_t size() const { return m_bytes; }
 
  private:

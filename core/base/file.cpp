@@ -17,6 +17,7 @@ Error ioError(const std::string& what, const fs::path& path, int code) {
   std::string remedy;
   switch (code) {
     case ENOENT:
+    case ENOTDIR:
       remedy = "Check the path, or create the folder first.";
       break;
     case EACCES:
@@ -26,6 +27,7 @@ Error ioError(const std::string& what, const fs::path& path, int code) {
       break;
     case ENOSPC:
     case EDQUOT:
+    case EFBIG:
       remedy = "Free some space on that disk, or choose another.";
       break;
     case EISDIR:
@@ -111,8 +113,12 @@ Result<void> writeThroughTemporary(const fs::path& path, const std::function<Res
   Result<void> written = write(temporary);
   if (written.ok()) {
     // rename(2) replaces a read-only target whose folder is writable: a user who protected a file does not expect that.
-    if (fs::exists(path, code) && ::access(path.c_str(), W_OK) != 0)
-      written = ioError("cannot write the file", path, errno);
+    struct stat old {};
+    if (::stat(path.c_str(), &old) == 0) {
+      if (::access(path.c_str(), W_OK) != 0) written = ioError("cannot write the file", path, errno);
+      // A file system without permissions refuses this, and loses nothing by it.
+      ::chmod(temporary.c_str(), old.st_mode & 07777);
+    }
   }
   if (written.ok() && ::rename(temporary.c_str(), path.c_str()) != 0) {
     written = ioError("cannot write the file", path, errno);
@@ -121,19 +127,20 @@ Result<void> writeThroughTemporary(const fs::path& path, const std::function<Res
   return written;
 }
 
-Result<void> writeFileAtomically(const fs::path& path, std::span<const std::byte> data) {
+Result<void> writeFileAtomically(const fs::path& path, std::span<const std::byte> data, Sync sync) {
   return writeThroughTemporary(path, [&](const fs::path& temporary) -> Result<void> {
     const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (fd < 0) return ioError("cannot write the file", path, errno);
     int failure = writeAll(fd, data.data(), data.size());
+    if (failure == 0 && sync == Sync::Yes && ::fsync(fd) != 0 && errno != EINVAL) failure = errno;
     if (::close(fd) != 0 && failure == 0) failure = errno;
     if (failure != 0) return ioError("cannot write the file", path, failure);
     return {};
   });
 }
 
-Result<void> writeFileAtomically(const fs::path& path, const std::string& text) {
-  return writeFileAtomically(path, std::as_bytes(std::span(text)));
+Result<void> writeFileAtomically(const fs::path& path, const std::string& text, Sync sync) {
+  return writeFileAtomically(path, std::as_bytes(std::span(text)), sync);
 }
 
 }  // namespace sward::base

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace sward::project {
@@ -16,5 +17,10 @@ inline constexpr double kMaxTileTexels = 5.0e8;
 inline constexpr int kMaxTiles = 255;
 /// With fewer lights than this PTM's six coefficients are not determined.
 inline constexpr int kFewLights = 6;
+
+/// Most entries of the lists of a file; the schema's ranges.
+inline constexpr std::size_t kMaxPlantKinds = 64;
+inline constexpr std::size_t kMaxViews = 1000;
+inline constexpr std::size_t kMaxLights = 1024;
 
 }  // namespace sward::project

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 
 namespace sward::project {
 namespace {
@@ -105,6 +106,13 @@ const scene::View* Project::view(const std::string& viewName) const {
   return found == views.end() ? nullptr : &*found;
 }
 
+bool Project::operator==(const Project& other) const {
+  const auto values = [](const Project& p) {
+    return std::tie(p.name, p.patch, p.lights, p.sampling, p.fit, p.tiles, p.sun, p.sky, p.render, p.views, p.output);
+  };
+  return values(*this) == values(other);
+}
+
 std::string toJson(const Project& project) {
   Json json;
   Writer writer(json);
@@ -144,7 +152,7 @@ Result<void> save(const Project& project, const std::filesystem::path& file) {
   }
   // Nothing is saved that could not be opened again, such as a NaN.
   if (const auto again = parse(text, file); !again.ok()) return again.error();
-  return base::writeFileAtomically(file, text);
+  return base::writeFileAtomically(file, text, base::Sync::Yes);
 }
 
 }  // namespace sward::project

@@ -74,6 +74,8 @@ struct Project {
 
   const scene::View* view(const std::string& name) const;
   std::filesystem::path resolve(const std::string& assetPath) const { return folder / assetPath; }
+  /// Compares everything that a file says; the folder is left out, as toJson leaves it out.
+  bool operator==(const Project& other) const;
 };
 
 /// One thing that is wrong with a project.

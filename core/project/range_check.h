@@ -30,8 +30,8 @@ class RangeCheck {
     if (value.has_value()) field(name, *value, spec);
   }
   template <typename T>
-  void choice(const char* name, const T& value, bool used) {
-    if (used) field(name, value);
+  void choice(const char* name, const T& value, bool used, const Spec& spec = {}) {
+    if (used) field(name, value, spec);
   }
 
  private:
@@ -51,7 +51,7 @@ class RangeCheck {
   void check(const std::string& path, const base::Curve& curve, const Spec& spec) {
     for (std::size_t i = 0; i < curve.points().size(); ++i) {
       const std::string place = path + "[" + std::to_string(i) + "]";
-      number(place + "[0]", curve.points()[i].x, spec);
+      number(place + "[0]", curve.points()[i].x, range(spec.xLow, spec.xHigh));
       number(place + "[1]", curve.points()[i].y, spec);
     }
   }

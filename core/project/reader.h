@@ -50,8 +50,8 @@ class Reader {
     read(*json, childPath(m_path, name), value.emplace(), spec);
   }
   template <typename T>
-  void choice(const char* name, T& value, bool) {
-    field(name, value);
+  void choice(const char* name, T& value, bool, const Spec& spec = {}) {
+    field(name, value, spec);
   }
   /// Reports keys that no field asked for.
   void finish();

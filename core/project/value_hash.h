@@ -41,8 +41,8 @@ class ValueHasher {
     if (value.has_value()) field(name, *value, spec);
   }
   template <typename T>
-  void choice(const char* name, const T& value, bool used) {
-    if (used) field(name, value);
+  void choice(const char* name, const T& value, bool used, const Spec& spec = {}) {
+    if (used) field(name, value, spec);
   }
 
  private:

@@ -9,47 +9,67 @@
 
 namespace sward::project {
 
-/// An enumerator and its lower-case word in files and on the command line.
+/// An enumerator, its lower-case word in files and on the command line, and its name and meaning for people.
 template <typename E>
 struct Word {
   E value;
   std::string_view text;
+  const char* label;
+  const char* help;
 };
 
-/// words(E{}) lists every word of an enumeration; the files, the command line and messages all read these tables.
+/// words(E{}) lists every word of an enumeration; the files, the command line, messages and editors read these tables.
 constexpr auto words(PlantKind) {
-  return std::array<Word<PlantKind>, 4>{{{PlantKind::Grass, "grass"},
-                                         {PlantKind::Flower, "flower"},
-                                         {PlantKind::Clover, "clover"},
-                                         {PlantKind::Gltf, "gltf"}}};
+  return std::array<Word<PlantKind>, 4>{
+      {{PlantKind::Grass, "grass", "Grass", "A tuft of blades, with seed heads if wanted."},
+       {PlantKind::Flower, "flower", "Flower", "A stem with leaves and one head of petals."},
+       {PlantKind::Clover, "clover", "Clover", "Stems with three leaflets each, and round flower heads."},
+       {PlantKind::Gltf, "gltf", "Mesh file", "A plant of your own, from a glTF file."}}};
 }
 constexpr auto words(scene::LightPattern) {
   return std::array<Word<scene::LightPattern>, 2>{
-      {{scene::LightPattern::Fibonacci, "fibonacci"}, {scene::LightPattern::List, "list"}}};
+      {{scene::LightPattern::Fibonacci, "fibonacci", "Fibonacci", "Evenly over the whole sky, any number of lights."},
+       {scene::LightPattern::List, "list", "List", "Directions that you place one by one."}}};
 }
 constexpr auto words(lpt::Basis) {
-  return std::array<Word<lpt::Basis>, 2>{{{lpt::Basis::Lpt, "lpt"}, {lpt::Basis::Ptm, "ptm"}}};
+  return std::array<Word<lpt::Basis>, 2>{
+      {{lpt::Basis::Lpt, "lpt", "Layered (LPT)", "One polynomial for a whole column of layers: small and smooth."},
+       {lpt::Basis::Ptm, "ptm", "Per layer (PTM)", "One polynomial for every texel of a layer: truer and larger."}}};
 }
 constexpr auto words(tiles::SeamMethod) {
   return std::array<Word<tiles::SeamMethod>, 2>{
-      {{tiles::SeamMethod::DynamicProgramming, "dynamic_programming"}, {tiles::SeamMethod::GraphCut, "graph_cut"}}};
+      {{tiles::SeamMethod::DynamicProgramming, "dynamic_programming", "Straight scan",
+        "Dynamic programming from end to end: fast, and the seam never turns back."},
+       {tiles::SeamMethod::GraphCut, "graph_cut", "Graph cut",
+        "The cheapest seam of any form: slower, better round large leaves."}}};
 }
 constexpr auto words(tiles::SeamDomain) {
   return std::array<Word<tiles::SeamDomain>, 2>{
-      {{tiles::SeamDomain::Disc, "disc"}, {tiles::SeamDomain::Square, "square"}}};
+      {{tiles::SeamDomain::Disc, "disc", "Real lights", "All directions that a light can have."},
+       {tiles::SeamDomain::Square, "square", "Square (paper)",
+        "The square round them, as first published; its corners are no lights."}}};
 }
 constexpr auto words(tiles::MapMethod) {
   return std::array<Word<tiles::MapMethod>, 2>{
-      {{tiles::MapMethod::ScanOrder, "scan_order"}, {tiles::MapMethod::Hashed, "hashed"}}};
+      {{tiles::MapMethod::ScanOrder, "scan_order", "One by one",
+        "Laid in rows, each tile chosen to fit its neighbours."},
+       {tiles::MapMethod::Hashed, "hashed", "Hashed",
+        "Each tile follows from its place alone; needs every tile there is."}}};
 }
 constexpr auto words(render::GroundMethod) {
-  return std::array<Word<render::GroundMethod>, 3>{{{render::GroundMethod::March, "march"},
-                                                    {render::GroundMethod::BlendedNormalised, "blended"},
-                                                    {render::GroundMethod::BlendedPaper, "blended_paper"}}};
+  return std::array<Word<render::GroundMethod>, 3>{
+      {{render::GroundMethod::March, "march", "March",
+        "Follows each ray through the layers, front to back: true parallax, and the fastest."},
+       {render::GroundMethod::BlendedNormalised, "blended", "Blended planes",
+        "Draws slices and blades as planes over one another, weighted by the view."},
+       {render::GroundMethod::BlendedPaper, "blended_paper", "Blended (paper)",
+        "The same with the published weights, for comparison."}}};
 }
 constexpr auto words(render::ViewTransform) {
   return std::array<Word<render::ViewTransform>, 2>{
-      {{render::ViewTransform::Filmic, "filmic"}, {render::ViewTransform::Standard, "standard"}}};
+      {{render::ViewTransform::Filmic, "filmic", "Filmic", "Highlights roll off softly, as on film."},
+       {render::ViewTransform::Standard, "standard", "Standard",
+        "Plain sRGB; whatever is brighter than white clips."}}};
 }
 
 /// The word of an enumerator; "?" for a value that is none of the enumerators.

@@ -32,7 +32,7 @@ class Writer {
     if (value.has_value()) m_object[name] = json(*value);
   }
   template <typename T>
-  void choice(const char* name, const T& value, bool used) {
+  void choice(const char* name, const T& value, bool used, const Spec& = {}) {
     if (used || !(value == T{})) m_object[name] = json(value);
   }
 

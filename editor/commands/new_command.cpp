@@ -1,8 +1,7 @@
 #include "commands.h"
 
-#include "mesh/gltf_read.h"
+#include "bake/import.h"
 
-#include <cmath>
 #include <iostream>
 
 namespace sward::editor {
@@ -15,46 +14,9 @@ struct NewRequest {
   bool list = false, force = false;
 };
 
-/// Files drawn in other units than metres are scaled to this height.
-constexpr double kUsualHeightM = 0.3;
-
-/// Area of leaves over a unit of ground in a dense sward (one side).
-constexpr double kLeafAreaIndex = 3.0;
-
-double surfaceArea(const mesh::Model& model) {
-  double area = 0.0;
-  for (const glm::uvec3& triangle : model.triangles) {
-    const glm::dvec3 a = model.positions[triangle.x], b = model.positions[triangle.y], c = model.positions[triangle.z];
-    area += 0.5 * glm::length(glm::cross(b - a, c - a));
-  }
-  return area;
-}
-
-/// A plant from a mesh: its own metres where they are a grass's, and as many as make a dense sward.
-Result<project::Plant> plantFromMesh(const fs::path& mesh, const fs::path& projectFolder) {
-  SWARD_ASSIGN(const mesh::Model model, mesh::readGltf(mesh));
-  const mesh::Bounds box = mesh::bounds(model);
-  const glm::dvec3 size = glm::dvec3(box.high) - glm::dvec3(box.low);
-  project::Plant plant;
-  plant.name = mesh.stem().string();
-  plant.kind = project::PlantKind::Gltf;
-  std::error_code code;
-  const fs::path relative = fs::relative(mesh, projectFolder, code);
-  plant.gltf.path = code || relative.empty() ? fs::absolute(mesh).string() : relative.generic_string();
-  double scale = 1.0;
-  if (!(size.z >= 0.02 && size.z <= 2.0)) {
-    plant.gltf.heightM = kUsualHeightM;
-    scale = kUsualHeightM / std::max(size.z, 1e-9);
-  }
-  const double areaM2 = std::max(scale * scale * surfaceArea(model), 1e-6);
-  plant.densityPerM2 = std::round(std::clamp(kLeafAreaIndex / areaM2, 4.0, 1500.0));
-  plant.variants = 1;
-  return plant;
-}
-
 /// Puts the mesh in place of the template's grasses, with all their share.
 Result<void> useMesh(project::Project& project, const fs::path& mesh, const fs::path& projectFolder) {
-  SWARD_ASSIGN(project::Plant plant, plantFromMesh(mesh, projectFolder));
+  SWARD_ASSIGN(project::Plant plant, bake::plantFromMesh(mesh, projectFolder));
   double share = 0.0;
   for (const project::Plant& p : project.patch.plants) share += p.kind == project::PlantKind::Grass ? p.share : 0.0;
   plant.share = share > 0.0 ? share : 1.0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bake/bake.h"
+#include "bake/quality.h"
 #include "base/result.h"
 #include "project/project.h"
 
@@ -14,38 +15,44 @@
 namespace sward::editor {
 
 /// How finely an edit is shown: at once, soon, and as it will be rendered.
-enum class Quality { Coarse, Half, Full };
+using Quality = bake::Quality;
 
 /// A ground that became ready.
 struct BakedGround {
-  std::uint64_t revision = 0;  ///< of the request
+  std::uint64_t revision = 0;  ///< of the newest request that this ground answers
   Quality quality = Quality::Coarse;
   std::shared_ptr<const bake::GroundBake> ground;
   bake::BakeReport report;
-  double secondsSinceRequest = 0.0;
+  double secondsSinceRequest = 0.0;  ///< since the request that began the bake
 };
 
 /// What the service is doing, for the status bar.
 struct BakeStatus {
-  bool running = false;
+  bool running = false;               ///< something is being baked or waits to be
   Quality quality = Quality::Coarse;  ///< being baked
   std::string stage;
   double fraction = 0.0;              ///< of this quality's bake
-  std::optional<double> secondsLeft;  ///< an estimate once enough is known
+  std::optional<double> secondsLeft;  ///< of this quality's bake, an estimate once enough is known
   std::optional<Error> error;         ///< of the newest request, when it failed
-  std::uint64_t revision = 0;
+  std::uint64_t revision = 0;         ///< of the newest request
 };
 
-/// Bakes grounds on a thread of low priority: coarse first, then half, then full. A newer request cancels the running
-/// bake when it needs another ground; one that needs the same ground (another sun, view or exposure) does not disturb
-/// it. All calls come from one thread, the UI's, and never wait for a bake.
+/// Bakes grounds on a thread of low priority: coarse first, then half, then full; it begins with a finer one that is
+/// cached already. All calls come from one thread, the UI's, and never wait for a bake.
+///
+/// What a newer request does: when it needs the same ground (another sun, view or exposure), the running bake goes on
+/// and answers both, and a ground that was handed out at full quality is not handed out again. When it needs another
+/// ground, a half or full bake is cancelled; a coarse one is finished first and handed out, so that a picture follows a
+/// slider that moves faster than a coarse bake takes. Only the newest ground is kept for tryPop.
 class BakeService {
  public:
   struct Options {
     std::filesystem::path cacheFolder;  ///< empty: no disk cache
     std::uint64_t cacheLimitBytes = std::uint64_t{4} << 30;
-    int threads = 0;                  ///< of a bake; 0: all but one, at least one
-    std::function<void()> onChanged;  ///< called from the service's thread when there is something new; may be empty
+    /// Of results held in memory: enough for a meadow's hits and fits at full quality, so that colours trace nothing.
+    std::uint64_t memoryLimitBytes = std::uint64_t{1} << 30;
+    int threads = 0;                  ///< of a bake; 0: all of them, at the lowest priority
+    std::function<void()> onChanged;  ///< called from the service's threads when there is something new; may be empty
   };
   explicit BakeService(Options options);
   /// Cancels and joins; within a second.
@@ -54,9 +61,10 @@ class BakeService {
   BakeService& operator=(const BakeService&) = delete;
 
   void request(std::shared_ptr<const project::Project> project, std::uint64_t revision);
-  /// Stops the running bake and drops what waits; the next request starts afresh.
+  /// Stops the running bake and drops what waits, also finished grounds; the next request starts afresh and hands its
+  /// ground out even if it is the one that was handed out last. For another document, or files changed on disk.
   void cancel();
-  /// The next finished ground that is still wanted, oldest first.
+  /// The finished ground that was not taken yet, if there is one.
   std::optional<BakedGround> tryPop();
   BakeStatus status() const;
 

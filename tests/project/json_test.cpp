@@ -14,6 +14,7 @@
 namespace sward::project {
 namespace {
 
+using test::changed;
 using test::Json;
 using testing::HasSubstr;
 
@@ -38,28 +39,6 @@ Project fullProject() {
   return project;
 }
 
-/// Another value of the same type that the field can hold.
-Json changed(const Json& value) {
-  if (value.is_boolean()) return !value.get<bool>();
-  if (value.is_number_float()) return value.get<double>() + 0.015625;
-  if (value.is_number()) return value.get<int>() + 1;
-  const auto text = value.get<std::string>();
-  const auto swapTo = [&](auto e) -> std::optional<std::string> {
-    using E = decltype(e);
-    if (!fromWord<E>(text)) return std::nullopt;
-    for (const auto& word : words(E{})) {
-      if (word.text != text) return std::string(word.text);
-    }
-    return std::nullopt;
-  };
-  for (const auto& word : {swapTo(PlantKind{}), swapTo(scene::LightPattern{}), swapTo(lpt::Basis{}),
-                           swapTo(tiles::SeamMethod{}), swapTo(tiles::SeamDomain{}), swapTo(tiles::MapMethod{}),
-                           swapTo(render::GroundMethod{}), swapTo(render::ViewTransform{})}) {
-    if (word) return *word;
-  }
-  return Json(text + "x");
-}
-
 TEST(ProjectJson, EveryFieldSurvivesTheRoundTrip) {
   const std::string text = toJson(fullProject());
   const Json original = Json::parse(text);
@@ -76,6 +55,20 @@ TEST(ProjectJson, EveryFieldSurvivesTheRoundTrip) {
     ASSERT_TRUE(again.contains(field)) << field;
     EXPECT_EQ(again[field], edited[field]) << field;
   }
+}
+
+TEST(ProjectJson, EveryFieldDecidesEquality) {
+  const Project full = parse(toJson(fullProject()), "p.sward").value();
+  const Json original = Json::parse(toJson(full));
+  for (const auto& field : test::leaves(original)) {
+    if (field.to_string() == "/version") continue;
+    Json edited = original;
+    edited[field] = changed(original[field]);
+    EXPECT_FALSE(parse(edited.dump(), "p.sward").value() == full) << field;
+  }
+  Project moved = full;
+  moved.folder = "elsewhere";
+  EXPECT_TRUE(moved == full) << "the folder is not part of the document";
 }
 
 TEST(ProjectJson, TextIsAFixedPoint) {

@@ -1,0 +1,133 @@
+#pragma once
+
+#include "project/project.h"
+#include "project/spec.h"
+
+/// The part of the schema that says how a baked ground is lit and looked at; see schema.h.
+namespace sward::project {
+
+template <typename A>
+void describe(A& a, typename A::template Ref<scene::SunAngles> v) {
+  a.field("azimuthDeg", v.azimuthDeg,
+          angle(0.0, 360.0).says("Azimuth", "Compass direction of the light, clockwise from north: 90 is east."));
+  a.field(
+      "elevationDeg", v.elevationDeg,
+      angle(-90.0, 90.0).soft(0.0, 90.0).says("Elevation", "Height over the horizon: 0 is sunset, 90 straight above."));
+}
+
+template <typename A>
+void describe(A& a, typename A::template Ref<scene::SunMoment> v) {
+  a.field("year", v.year, range(1950, 2050).in("Date").says("Year", "Year of the date; it hardly moves the sun."));
+  a.field("month", v.month, range(1, 12).in("Date").says("Month", "Month of the date, 1 to 12."));
+  a.field("day", v.day, range(1, 31).in("Date").says("Day", "Day of the month."));
+  a.field("hourUtc", v.hourUtc,
+          range(0.0, 23.999999, "hours")
+              .steps(0.25)
+              .in("Date")
+              .says("Hour (UTC)", "Time of the day at Greenwich, not local time: 13.5 is half past one."));
+  a.field("latitudeDeg", v.latitudeDeg,
+          angle(-90.0, 90.0).in("Place").says("Latitude", "Degrees north of the equator; negative is south."));
+  a.field("longitudeDeg", v.longitudeDeg,
+          angle(-180.0, 180.0).in("Place").says("Longitude", "Degrees east of Greenwich; negative is west."));
+}
+
+template <typename A>
+void describe(A& a, typename A::template Ref<scene::SunOptions> v) {
+  a.field("byMoment", v.byMoment,
+          of(Role::Shape)
+              .says("By date and place",
+                    "Puts the sun where it stands at a date, hour and place. Otherwise "
+                    "two angles say where."));
+  a.choice("angles", v.angles, !v.byMoment, of(Role::Shape).says("Angles", "Where the sun stands."));
+  a.choice("moment", v.moment, v.byMoment,
+           of(Role::Shape).says("Date and place", "When and from where the sun is seen."));
+  a.field("intensity", v.intensity,
+          range(0.0, 1000.0)
+              .decades(0.1, 10.0)
+              .says("Sun strength",
+                    "Multiplies the sunlight; 1 is physical. Lower it for an "
+                    "overcast look."));
+}
+
+template <typename A>
+void describe(A& a, typename A::template Ref<scene::SkyOptions> v) {
+  a.field("turbidity", v.turbidity,
+          range(1.7, 10.0).says("Turbidity", "Haze in the air: 2 is a clear deep blue sky, 10 a milky one."));
+  a.field("intensity", v.intensity,
+          range(0.0, 1000.0)
+              .decades(0.1, 10.0)
+              .says("Sky strength",
+                    "Multiplies the light of the sky; 1 is physical. Raise it for "
+                    "softer shadows."));
+  a.field(
+      "hazeKm", v.hazeKm,
+      range(0.0, 10000.0, "km")
+          .decades(0.2, 100.0)
+          .says("Haze distance", "How far one sees before haze hides two thirds of the ground. 0 switches haze off."));
+}
+
+template <typename A>
+void describe(A& a, typename A::template Ref<scene::View> v) {
+  a.field("name", v.name, label().says("Name", "What the view is called in lists and after --view."));
+  a.field("position", v.position,
+          range(-1e6, 1e6, "m")
+              .soft(-50.0, 50.0)
+              .steps(0.05)
+              .says("Position", "Where the camera stands: east, north and up from the patch's middle."));
+  a.field("target", v.target,
+          range(-1e6, 1e6, "m").soft(-50.0, 50.0).steps(0.05).says("Target", "The point that the camera looks at."));
+  a.field("focalLengthMm", v.focalLengthMm,
+          range(1.0, 2000.0, "mm")
+              .decades(12.0, 200.0)
+              .says("Focal length", "Lens for a sensor 36 mm wide: 24 is wide, 50 normal, 135 a telephoto."));
+  a.field("exposureEv", v.exposureEv,
+          range(-20.0, 20.0, "stops")
+              .soft(-4.0, 4.0)
+              .steps(0.1)
+              .says("Exposure", "Brightens or darkens on top of the automatic exposure; one stop doubles the light."));
+}
+
+template <typename A>
+void describe(A& a, typename A::template Ref<render::RenderOptions> v) {
+  a.field(
+      "method", v.method,
+      of(Role::Shape).in("Method").says("Method", "How the baked layers are drawn. March is the best and fastest."));
+  a.field("bladeAngleDeg", v.bladeAngleDeg,
+          angle(1.0, 89.0)
+              .soft(10.0, 60.0)
+              .in("Method")
+              .expert()
+              .says("Blade fade angle",
+                    "Upright layers fade out where one looks down more steeply than this from "
+                    "the vertical."));
+  a.field("samples", v.samples,
+          range(1, 4096, "samples a pixel")
+              .decades(1.0, 64.0)
+              .in("Method")
+              .says("Samples", "Samples of each pixel of a picture. Raise it when edges of leaves look ragged."));
+  a.field("viewTransform", v.viewTransform,
+          of(Role::Shape).in("Look").says("View transform", "How light becomes the colours of the picture."));
+  a.field("macroVariation", v.macroVariation,
+          percent(0.0, 1.0).soft(0.0, 0.5).in("Look").says(
+              "Patchiness", "Brighter and darker patches over metres, as meadows have. It hides that tiles repeat."));
+  a.field("macroScaleM", v.macroScaleM,
+          range(0.01, 100000.0, "m")
+              .decades(0.5, 100.0)
+              .in("Look")
+              .says("Patch size", "Width of the brighter and darker patches."));
+  a.field("gridBendM", v.gridBendM,
+          range(0.0, 2.0, "m")
+              .in("Look")
+              .expert()
+              .says("Grid bend", "Bends the rows of tiles, so that none can be followed to the horizon."));
+}
+
+template <typename A>
+void describe(A& a, typename A::template Ref<Output> v) {
+  a.field("width", v.width,
+          range(1, 16384, "pixels").soft(320, 4096).says("Width", "Width of the picture that is rendered."));
+  a.field("height", v.height,
+          range(1, 16384, "pixels").soft(240, 4096).says("Height", "Height of the picture that is rendered."));
+}
+
+}  // namespace sward::project

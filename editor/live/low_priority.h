@@ -1,0 +1,12 @@
+#pragma once
+
+namespace sward::editor {
+
+/// Gives the calling thread the lowest priority of an ordinary thread (nice 19), so that the window and its pictures
+/// come first; threads that it starts later inherit it. Silently does nothing where the system refuses.
+void lowerPriorityOfThisThread();
+
+/// Starts the threads of the task scheduler from the calling thread, so that they inherit its priority.
+void startSchedulerThreads();
+
+}  // namespace sward::editor

@@ -77,7 +77,7 @@ TEST(Layout, EditorIncludesFollowTheArrows) {
   const std::map<std::string, std::set<std::string>> allowed{
       {"document", {"base", "project"}},
       {"live", {"base", "image", "mesh", "scene", "trace", "lpt", "tiles", "project", "bake", "gpu", "render"}},
-      {"widgets", {"base", "scene", "project"}},
+      {"widgets", {"base", "image", "scene", "project"}},
       {"panels", {"document", "live", "widgets"}},
       {"app", {"document", "live", "widgets", "panels"}},
       {"commands", {"document", "live", "widgets", "panels", "app"}},

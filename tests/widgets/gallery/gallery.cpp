@@ -1,0 +1,80 @@
+// Draws every widget in both themes at two scales into PNG files, to be looked at: widget_gallery FOLDER.
+
+#include "widgets/fields.h"
+#include "widgets/harness.h"
+
+#include "image/io.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+
+namespace sward::editor {
+namespace {
+
+mesh::GrassShape changedGrass() {
+  mesh::GrassShape grass;
+  grass.heightM = 0.62;
+  grass.widthM = 2.0;
+  grass.tipColour = {0.2, 0.35, 0.06};
+  grass.profile = base::Curve::fromPoints({{0, 0.4}, {0.3, 1.0}, {0.8, 0.6}, {1, 0.05}}).value();
+  return grass;
+}
+
+FieldOptions everything() {
+  FieldOptions options;
+  options.advanced = true;
+  return options;
+}
+
+void drawGrass() {
+  static mesh::GrassShape grass = changedGrass();
+  drawFields("patch.plants[0].grass", grass, mesh::GrassShape{}, everything());
+}
+
+void drawPlant() {
+  static project::Plant plant = [] {
+    project::Plant p;
+    p.kind = project::PlantKind::Gltf;
+    p.gltf.material.emplace();
+    p.gltf.material->baseColour = glm::dvec3(0.3, 0.2, 0.1);
+    return p;
+  }();
+  drawFields("patch.plants[1]", plant, project::Plant{}, {});
+  static scene::View view;
+  drawFields("views[0]", view, scene::View{});
+  static project::Soil soil;
+  drawFields("patch.soil", soil, project::Soil{});
+}
+
+void writePage(const std::string& folder, const char* name, float w, float h, ThemeKind kind, float scale,
+               const std::function<void()>& draw, const std::function<void(Harness&)>& drive = {}) {
+  Harness ui(w * scale, h * scale, kind, scale);
+  ui.show(draw);
+  if (drive) drive(ui);
+  ui.frames(2);
+  const std::string file = folder + "/" + name + (kind == ThemeKind::Dark ? "-dark-" : "-light-") +
+                           std::to_string(static_cast<int>(scale)) + ".png";
+  if (const auto written = image::writePng(file, ui.picture()); !written.ok()) {
+    std::fprintf(stderr, "%s\n", written.error().text().c_str());
+  }
+}
+
+void writeAll(const std::string& folder) {
+  for (const ThemeKind kind : {ThemeKind::Dark, ThemeKind::Light}) {
+    for (const float scale : {1.0f, 2.0f}) {
+      writePage(folder, "grass", 360, 820, kind, scale, drawGrass);
+      writePage(folder, "plant", 360, 900, kind, scale, drawPlant);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sward::editor
+
+int main(int count, char** arguments) {
+  const std::string folder = count > 1 ? arguments[1] : ".";
+  std::filesystem::create_directories(folder);
+  sward::editor::writeAll(folder);
+  return 0;
+}

@@ -4,7 +4,6 @@
 #include "panels/view_edits.h"
 #include "widgets/icons.h"
 #include "widgets/item_log.h"
-#include "widgets/sky_dome.h"
 #include "widgets/theme.h"
 
 #include "project/limits.h"
@@ -187,6 +186,13 @@ void InspectorPanel::view(PanelContext& context, std::size_t index) {
   ImGui::SameLine();
   if (ImGui::Button("Remove")) context.edits.run("view.remove");
   logItem("inspector.viewRemove");
+}
+
+void InspectorPanel::sunAndSky(PanelContext& context) {
+  heading("Sun");
+  fields(context, "sun", [](project::Project& p) -> auto& { return p.sun; });
+  heading("Sky");
+  fields(context, "sky", [](project::Project& p) -> auto& { return p.sky; });
 }
 
 }  // namespace sward::editor

@@ -2,13 +2,13 @@
 
 #include "document/document.h"
 #include "live/bake_service.h"
-#include "live/thumbnail_service.h"
 #include "panels/ui_state.h"
 
 #include <functional>
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace sward::editor {
 
@@ -25,6 +25,8 @@ class EditSink {
   virtual void run(const std::string& action) = 0;
   /// Says something in passing.
   virtual void notice(const std::string& text) = 0;
+  /// Lets the user choose a file for the value at a path of the document; `files` are the endings that are accepted.
+  virtual void browse(const std::string& path, const std::string& files) = 0;
 };
 
 /// A texture that a panel shows.
@@ -38,6 +40,7 @@ struct LiveState {
   BakeStatus bake;
   std::shared_ptr<const bake::GroundBake> ground;  ///< newest; null until the first is ready
   Quality quality = Quality::Coarse;               ///< of `ground`
+  double groundSeconds = 0.0;                      ///< from the edit to `ground`
   bool stale = false;                              ///< `ground` is of an older project than the document's
   PanelPicture picture;
   int samples = 0;
@@ -56,8 +59,9 @@ struct PanelContext {
   EditSink& edits;
   UiState& ui;
   const LiveState& live;
-  double seconds = 0.0;  ///< since the program started
+  double seconds = 0.0;  ///< of the clock that frames are drawn by
   float scale = 1.0f;    ///< pixels a design pixel
+  std::vector<std::string> addPlantActions;  ///< ids of the actions that add a preset
 };
 
 }  // namespace sward::editor

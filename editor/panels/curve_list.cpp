@@ -1,0 +1,79 @@
+#include "panels/curve_list.h"
+
+#include "project/schema.h"
+
+#include <functional>
+#include <optional>
+#include <utility>
+
+namespace sward::editor {
+namespace {
+
+/// The archive that visits every curve in use with its path.
+class CurveVisitor {
+ public:
+  template <typename T>
+  using Ref = T&;
+  using Visit = std::function<void(const std::string& path, base::Curve& curve, const project::Spec& spec)>;
+
+  CurveVisitor(std::string path, const Visit& visit) : m_path(std::move(path)), m_visit(visit) {}
+
+  void version(int) {}
+  template <typename T>
+  void field(const char* name, T& value, const project::Spec& spec = {}) {
+    walk(m_path.empty() ? std::string(name) : m_path + "." + name, value, spec);
+  }
+  template <typename T>
+  void field(const char* name, std::optional<T>& value, const project::Spec& spec = {}) {
+    if (value.has_value()) field(name, *value, spec);
+  }
+  template <typename T>
+  void choice(const char* name, T& value, bool used, const project::Spec& spec = {}) {
+    if (used) field(name, value, spec);
+  }
+
+ private:
+  template <typename T>
+  void walk(const std::string& path, T& value, const project::Spec&) {
+    if constexpr (requires(CurveVisitor & inner) { describe(inner, value); }) {
+      CurveVisitor inner(path, m_visit);
+      describe(inner, value);
+    }
+  }
+  template <typename T>
+  void walk(const std::string& path, std::vector<T>& values, const project::Spec& spec) {
+    for (std::size_t i = 0; i < values.size(); ++i) walk(path + "[" + std::to_string(i) + "]", values[i], spec);
+  }
+  void walk(const std::string& path, base::Curve& curve, const project::Spec& spec) { m_visit(path, curve, spec); }
+
+  std::string m_path;
+  const Visit& m_visit;
+};
+
+}  // namespace
+
+std::vector<CurveEntry> curvesOf(const project::Project& project) {
+  std::vector<CurveEntry> curves;
+  project::Project copy = project;
+  const CurveVisitor::Visit visit = [&](const std::string& path, base::Curve& curve, const project::Spec& spec) {
+    const std::size_t bracket = path.find(']');
+    curves.push_back({path, bracket == std::string::npos ? "" : path.substr(0, bracket + 1), spec, curve});
+  };
+  CurveVisitor visitor("", visit);
+  describe(visitor, copy);
+  return curves;
+}
+
+bool setCurve(project::Project& project, const std::string& path, const base::Curve& curve) {
+  bool found = false;
+  const CurveVisitor::Visit visit = [&](const std::string& at, base::Curve& place, const project::Spec&) {
+    if (at != path) return;
+    place = curve;
+    found = true;
+  };
+  CurveVisitor visitor("", visit);
+  describe(visitor, project);
+  return found;
+}
+
+}  // namespace sward::editor

@@ -37,4 +37,14 @@ class Curve {
   std::vector<double> m_slopes;  ///< dy/dx at each point
 };
 
+/// A curve to start from, in the unit square.
+struct CurvePreset {
+  const char* name;  ///< for people
+  std::vector<CurvePoint> points;
+};
+/// Constant, linear both ways, ease in, ease out, S, bump, two humps: x from 0 to 1 and y in [0, 1].
+const std::vector<CurvePreset>& curvePresets();
+/// A preset stretched over the rectangle of a field's axes.
+Curve presetCurve(const CurvePreset& preset, double xLow, double xHigh, double yLow, double yHigh);
+
 }  // namespace sward::base

@@ -59,6 +59,7 @@ namespace sward::gpu {
   X(PROGRAMUNIFORM2IV, ProgramUniform2iv)                     \
   X(PROGRAMUNIFORM3FV, ProgramUniform3fv)                     \
   X(PROGRAMUNIFORM4FV, ProgramUniform4fv)                     \
+  X(SCISSOR, Scissor)                                         \
   X(SHADERSOURCE, ShaderSource)                               \
   X(TEXTUREBUFFER, TextureBuffer)                             \
   X(TEXTUREPARAMETERI, TextureParameteri)                     \

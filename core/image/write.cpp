@@ -1,5 +1,6 @@
 #include "image/io.h"
 
+#include "image/bytes.h"
 #include "image/io_common.h"
 
 #include "base/file.h"
@@ -59,10 +60,7 @@ Result<std::vector<std::byte>> encode(const char* format, OIIO::ImageSpec& spec,
 
 std::vector<std::uint8_t> quantise(const Image& encoded) {
   std::vector<std::uint8_t> values(encoded.pixels.size());
-  std::transform(encoded.pixels.begin(), encoded.pixels.end(), values.begin(), [](float value) {
-    if (!(value > 0.0f)) return std::uint8_t{0};  // NaN too
-    return static_cast<std::uint8_t>(std::lround(std::min(value, 1.0f) * 255.0f));
-  });
+  std::transform(encoded.pixels.begin(), encoded.pixels.end(), values.begin(), toByte);
   return values;
 }
 

@@ -1,10 +1,14 @@
 #include "mesh/procedural.h"
 
+#include "base/curve_sampler.h"
 #include "mesh/ribbon.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <numeric>
+#include <optional>
 
 namespace sward::mesh {
 namespace {
@@ -20,15 +24,33 @@ double lanceolate(double s) {
   return sheath * (1.0 - std::pow(s, 2.6));
 }
 
-/// Relative width at s, scaled so that the widest place of the built-in outline is 1.
-double relativeWidth(const GrassShape& shape, double s) {
-  if (!shape.profile.points().empty()) return std::max(shape.profile(s), 0.0);
+/// The same, scaled so that its widest place is 1.
+double builtInWidth(double s) {
   static const double widest = [] {
     double largest = 0.0;
     for (int i = 0; i <= 100; ++i) largest = std::max(largest, lanceolate(i / 100.0));
     return largest;
   }();
   return lanceolate(s) / widest;
+}
+
+double relativeWidth(const GrassShape& shape, double s) {
+  return shape.profile.points().empty() ? builtInWidth(s) : std::max(shape.profile(s), 0.0);
+}
+
+/// Roots stay dark over the sheath, then the blade brightens.
+double builtInTipPart(double s) {
+  return std::pow(s, 0.8);
+}
+
+/// A built-in function as a curve through evenly spaced points, for people to start from.
+base::Curve sampled(double low, double high, int count, const std::function<double(double)>& function) {
+  std::vector<base::CurvePoint> points;
+  for (int i = 0; i < count; ++i) {
+    const double x = low + (high - low) * i / (count - 1);
+    points.push_back({x, function(x)});
+  }
+  return base::Curve::fromPoints(std::move(points)).value();  // x increases and all is finite
 }
 
 /// Where one blade stands in the tuft.
@@ -51,6 +73,7 @@ Root placeRoot(const GrassShape& shape, base::Random& random, int index, int cou
 
 /// Colours of one blade: its green, and how far from the tip downward it has dried (0: not at all).
 struct BladeColour {
+  const base::Curve* along = nullptr;  ///< part of the tip's colour; empty: the built-in rise
   glm::dvec3 root{0.0};
   glm::dvec3 tip{0.0};
   glm::dvec3 dry{0.0};
@@ -58,8 +81,8 @@ struct BladeColour {
   double dryAmount = 0.0;
 
   glm::dvec3 at(double s, double across) const {
-    // Roots stay dark over the sheath, then the blade brightens; the midrib is a little paler than the blade's halves.
-    const double t = std::pow(s, 0.8);
+    const double t = along->points().empty() ? builtInTipPart(s) : std::clamp((*along)(s), 0.0, 1.0);
+    // The midrib is a little paler than the blade's halves.
     glm::dvec3 colour = glm::mix(root, tip, t) * (1.06 - 0.06 * std::abs(across));
     if (dryLength > 0.0) {
       const double reach = std::clamp((s - (1.0 - dryLength)) / std::max(0.5 * dryLength, 0.08), 0.0, 1.0);
@@ -71,6 +94,7 @@ struct BladeColour {
 
 BladeColour bladeColour(const GrassShape& shape, base::Random& random) {
   BladeColour colour;
+  colour.along = &shape.colourAlong;
   const double v = shape.colourVariation;
   base::Random twin = random;  // root and tip of a blade vary together
   colour.root = variedColour(random, shape.rootColour, v);
@@ -87,8 +111,28 @@ BladeColour bladeColour(const GrassShape& shape, base::Random& random) {
   return colour;
 }
 
-void growBlade(Model& model, const GrassShape& shape, base::Random& random, const Root& root) {
-  const double length = variedLength(random, shape.heightM, shape.heightVariation);
+/// Heights of the blades of one tuft by the shape's curve, relative: one from each of as many strata of equal
+/// probability, so that even a tuft of few blades follows the curve, in an order of their own.
+std::vector<double> drawnHeights(const base::Curve& density, int count, std::uint64_t seed) {
+  const base::CurveSampler sampler(density, 0.0, kHighestRelativeHeight);
+  base::Random random(base::mix64(seed, 0x68656967));
+  std::vector<int> order(static_cast<std::size_t>(count));
+  std::iota(order.begin(), order.end(), 0);
+  for (std::size_t i = order.size(); i > 1; --i) {
+    std::swap(order[i - 1], order[random.index(static_cast<std::uint32_t>(i))]);
+  }
+  std::vector<double> heights;
+  for (const int stratum : order) {
+    heights.push_back(std::max(sampler((stratum + random.uniform()) / count), kLowestRelativeHeight));
+  }
+  return heights;
+}
+
+/// `relativeHeight` replaces the normal distribution; the blade's other traits stay the same with and without it.
+void growBlade(Model& model, const GrassShape& shape, base::Random& random, const Root& root,
+               std::optional<double> relativeHeight) {
+  const double normal = variedLength(random, shape.heightM, shape.heightVariation);
+  const double length = relativeHeight ? *relativeHeight * shape.heightM : normal;
   // Short blades are narrower, by less than they are shorter.
   const double width = shape.widthM * std::sqrt(length / shape.heightM);
   Axis axis;
@@ -169,6 +213,9 @@ Model growGrass(const GrassShape& shape, std::uint64_t seed) {
   base::Random dice(base::mix64(seed, 0x67726173));
   // The share is met on average over many plants, also where it is less than one blade of this one.
   const int stems = std::clamp(static_cast<int>(std::floor(shape.seedHeadShare * count + dice.uniform())), 0, count);
+  const bool drawn = !shape.heightDistribution.points().empty();
+  const std::vector<double> heights =
+      drawn ? drawnHeights(shape.heightDistribution, count, seed) : std::vector<double>{};
   for (int i = 0; i < count; ++i) {
     base::Random random(base::mix64(seed, static_cast<std::uint64_t>(i) + 1));
     const Root root = placeRoot(shape, random, i, count);
@@ -177,10 +224,28 @@ Model growGrass(const GrassShape& shape, std::uint64_t seed) {
     if (stem) {
       growStem(model, shape, random, root);
     } else {
-      growBlade(model, shape, random, root);
+      growBlade(model, shape, random, root, drawn ? std::optional(heights[static_cast<std::size_t>(i)]) : std::nullopt);
     }
   }
   return model;
+}
+
+base::Curve builtInProfile() {
+  return sampled(0.0, 1.0, 9, builtInWidth);
+}
+
+base::Curve builtInColourAlong() {
+  return sampled(0.0, 1.0, 6, builtInTipPart);
+}
+
+base::Curve builtInHeightDistribution(double heightVariation) {
+  // Without any variation a curve still needs some width.
+  const double deviation = std::clamp(heightVariation, 0.01, 0.5);
+  return sampled(1.0 - 2.0 * deviation, 1.0 + 2.0 * deviation, 9, [&](double x) {
+    const double z = (x - 1.0) / deviation;
+    // Zero at both ends, since a curve keeps the value of its last point beyond it.
+    return std::abs(z) < 1.99 ? std::exp(-0.5 * z * z) : 0.0;
+  });
 }
 
 }  // namespace sward::mesh

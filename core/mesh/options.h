@@ -26,22 +26,32 @@ struct MaterialOverride {
   bool operator==(const MaterialOverride&) const = default;
 };
 
+/// Heights that GrassShape::heightDistribution can give blades, relative to heightM.
+inline constexpr double kLowestRelativeHeight = 0.05;  ///< shorter blades would be no blades
+inline constexpr double kHighestRelativeHeight = 2.0;
+
 /// A tuft of procedural grass; lengths in metres, angles in degrees. Ranges are checked by project::validate.
 struct GrassShape {
   int bladesPerPlant = 9;
   int segments = 6;               ///< quads along a blade
   double heightM = 0.40;          ///< along the blade, before bending
   double heightVariation = 0.30;  ///< relative standard deviation, cut at two
-  double widthM = 0.005;          ///< at the widest place
-  base::Curve profile;            ///< relative width over 0 (root) to 1 (tip); empty: the built-in lanceolate taper
-  double bendDeg = 50.0;          ///< how far the tip's direction turns from the root's
-  double leanDeg = 12.0;          ///< inclination at the root, outward from the tuft's middle
-  double twistDeg = 40.0;         ///< rotation about the blade's axis, root to tip
-  double foldDeg = 25.0;          ///< crease along the midrib; 0 is flat
-  double clumpRadiusM = 0.03;     ///< roots stand within this radius of the plant's foot
-  double seedHeadShare = 0.0;     ///< fraction of the blades that are stems with a seed head
+  /// Relative density of blades over relative height (0 to kHighestRelativeHeight, times heightM): what the blades'
+  /// heights are drawn from in place of the normal distribution. Empty: that one. Only its form counts, not its scale.
+  base::Curve heightDistribution;
+  double widthM = 0.005;       ///< at the widest place
+  base::Curve profile;         ///< relative width over 0 (root) to 1 (tip); empty: the built-in lanceolate taper
+  double bendDeg = 50.0;       ///< how far the tip's direction turns from the root's
+  double leanDeg = 12.0;       ///< inclination at the root, outward from the tuft's middle
+  double twistDeg = 40.0;      ///< rotation about the blade's axis, root to tip
+  double foldDeg = 25.0;       ///< crease along the midrib; 0 is flat
+  double clumpRadiusM = 0.03;  ///< roots stand within this radius of the plant's foot
+  double seedHeadShare = 0.0;  ///< fraction of the blades that are stems with a seed head
   glm::dvec3 rootColour{0.060, 0.085, 0.022};  ///< linear RGB
   glm::dvec3 tipColour{0.150, 0.235, 0.045};
+  /// Part of the tip's colour in the mix over 0 (root) to 1 (tip), 0 to 1; empty: the built-in rise. Seen at the ends
+  /// of the blade's segments, between which colours are mixed linearly.
+  base::Curve colourAlong;
   glm::dvec3 seedHeadColour{0.32, 0.24, 0.11};
   double colourVariation = 0.15;  ///< relative, blade to blade
   LeafOptics optics;

@@ -10,9 +10,9 @@
 ///
 /// An archive A has `template <class T> using Ref` (T& or const T&) and
 ///   a.version(n)                        the format's version, first
-///   a.field(name, value, spec)          a number, flag, word, text, vector, curve, struct, list of structs, or
-///   optional a.choice(name, value, used, spec)   a struct that another value may switch off; unused ones are kept, not
-///   checked
+///   a.field(name, value, spec)          a number, flag, word, text, vector, curve, struct, list of structs; any of
+///                                       them may be std::optional
+///   a.choice(name, value, used, spec)   a struct that another value may switch off; unused ones are kept, not checked
 /// A struct's fields come in the order of the file, those of one Spec::group side by side.
 namespace sward::project {
 

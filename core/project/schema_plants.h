@@ -48,6 +48,13 @@ void describe(A& a, typename A::template Ref<mesh::GrassShape> v) {
           percent(0.0, 0.5).in("Size").says("Height variation",
                                             "How much blades differ in height. Low for a mown lawn, high for a wild "
                                             "meadow."));
+  a.field("heightDistribution", v.heightDistribution,
+          range(0.0, 1.0)
+              .axes("Height / blade height", "Density", 0.0, mesh::kHighestRelativeHeight)
+              .in("Size")
+              .says("Density by height",
+                    "How many blades reach which height: two humps grow an under-layer with taller grass above. "
+                    "Without points, Height variation decides."));
   a.field("widthM", v.widthM,
           range(0.0001, 1.0, "m")
               .decades(0.0005, 0.03)
@@ -96,6 +103,13 @@ void describe(A& a, typename A::template Ref<mesh::GrassShape> v) {
   a.field("rootColour", v.rootColour,
           colour().in("Colour").says("Root colour", "Colour where a blade leaves the ground."));
   a.field("tipColour", v.tipColour, colour().in("Colour").says("Tip colour", "Colour at the end of a blade."));
+  a.field("colourAlong", v.colourAlong,
+          range(0.0, 1.0, "", Role::Colour)
+              .axes("Along the blade", "Part of tip colour")
+              .in("Colour")
+              .says("Colour along blade",
+                    "Where the root's colour gives way to the tip's. More segments show finer steps; nothing is traced "
+                    "anew."));
   a.field("colourVariation", v.colourVariation,
           percent(0.0, 1.0, Role::Colour)
               .soft(0.0, 0.5)

@@ -61,6 +61,23 @@ void checkGltf(const Project& project, const Plant& plant, const std::string& wh
   checkAsset(project, path, plant.gltf.path, out);
 }
 
+/// Curves that leave nothing to grow. (Ranges are checked with all other values.)
+void checkGrassCurves(const mesh::GrassShape& grass, const std::string& where, Problems& out) {
+  const auto allZero = [](const base::Curve& curve) {
+    const auto& points = curve.points();
+    return !points.empty() &&
+           std::none_of(points.begin(), points.end(), [](const base::CurvePoint& p) { return p.y > 0.0; });
+  };
+  if (allZero(grass.heightDistribution)) {
+    out.error(where + ".heightDistribution", "the density is 0 at every height",
+              "Raise one of its points above 0, or remove them all: heightVariation decides then.");
+  }
+  if (allZero(grass.profile)) {
+    out.error(where + ".profile", "the blade has no width anywhere",
+              "Raise one of its points above 0, or remove them all for the built-in form.");
+  }
+}
+
 void checkPatch(const Project& project, Problems& out) {
   const Patch& patch = project.patch;
   double shares = 0.0;
@@ -73,6 +90,7 @@ void checkPatch(const Project& project, Problems& out) {
     const Plant& plant = patch.plants[i];
     const std::string where = "patch.plants[" + std::to_string(i) + "]";
     if (plant.kind == PlantKind::Gltf) checkGltf(project, plant, where, out);
+    if (plant.kind == PlantKind::Grass) checkGrassCurves(plant.grass, where + ".grass", out);
     if (shares > 0.0) plants += plant.densityPerM2 * patch.sideM * patch.sideM * plant.share / shares;
   }
   if (plants > kMaxPlants) {

@@ -198,6 +198,7 @@ BlockPlan planBlocks(const Frame& frame, const bake::GroundBake& ground, bool ha
   BlockPlan plan;
   for (int y = 0; y < frame.height; y += BlockPlan::kBlock) {
     for (int x = 0; x < frame.width; x += BlockPlan::kBlock) {
+      if (x >= frame.drawn().end || x + BlockPlan::kBlock <= frame.drawn().begin) continue;
       unsigned needs = 0;
       for (int probe = 0; probe < (kProbes + 1) * (kProbes + 1); ++probe) {
         const double px = x - 2.0 + (BlockPlan::kBlock + 4.0) * (probe % (kProbes + 1)) / kProbes;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -38,6 +39,45 @@ Result<void> checkFrame(const Frame& frame) {
 
 }  // namespace
 
+struct Drawing::Impl {
+  Frame frame;
+  BlockPlan plan;
+  gpu::Texture target;
+  gpu::Framebuffer framebuffer;
+  int drawn = 0;
+  std::uint64_t revision = 0;  ///< of the renderer's ground and light when it was begun
+
+  /// From the sum of weighted samples to their mean: exactly 1 once all are drawn.
+  float gain() const { return static_cast<float>(frame.options.samples) / static_cast<float>(std::max(drawn, 1)); }
+
+  /// RGBA, rows from the bottom, as the driver holds it: any other order makes drivers convert pixel by pixel.
+  std::vector<float> read() const {
+    std::vector<float> rgba(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height) * 4);
+    gpu::gl().PixelStorei(GL_PACK_ALIGNMENT, 4);
+    gpu::gl().GetTextureImage(target.name(), 0, GL_RGBA, GL_FLOAT, static_cast<GLsizei>(rgba.size() * sizeof(float)),
+                              rgba.data());
+    return rgba;
+  }
+};
+
+Drawing::Drawing() : m_impl(std::make_unique<Impl>()) {}
+Drawing::~Drawing() = default;
+Drawing::Drawing(Drawing&&) noexcept = default;
+Drawing& Drawing::operator=(Drawing&&) noexcept = default;
+
+int Drawing::width() const {
+  return m_impl->frame.width;
+}
+int Drawing::height() const {
+  return m_impl->frame.height;
+}
+int Drawing::samples() const {
+  return m_impl->drawn;
+}
+bool Drawing::complete() const {
+  return m_impl->drawn >= m_impl->frame.options.samples;
+}
+
 struct Renderer::Impl {
   explicit Impl(gpu::Context& c) : context(c) {}
 
@@ -45,13 +85,14 @@ struct Renderer::Impl {
   ProgramCache programs;
   GroundPass pass;
   gpu::Buffer mapWords, horizonValues;
-  gpu::Texture map, sky, horizon, target;
+  gpu::Texture map, sky, horizon;
   std::optional<MacroSettings> macro;  ///< what mapWords was made with
-  gpu::Framebuffer framebuffer;
+  Drawing whole;                       ///< of drawLinear and its like
   std::shared_ptr<const bake::GroundBake> ground;
   std::optional<RelitGround> relit;
   std::optional<scene::Daylight> daylight;
   double hazeKm = 0.0;
+  std::uint64_t revision = 1;  ///< of ground and light
 
   Result<void> ready() {
     SWARD_TRY(context.makeCurrent());
@@ -60,14 +101,18 @@ struct Renderer::Impl {
     return {};
   }
 
-  Result<void> bindTarget(int width, int height) {
-    if (target.width() != width || target.height() != height) {
-      target = gpu::Texture::make2d(GL_RGBA32F, width, height);
-      framebuffer = gpu::Framebuffer(target);
-      SWARD_TRY(context.checkErrors("framebuffer"));
-      if (!framebuffer.complete()) return Error::failed("the driver cannot draw into floats", "framebuffer");
-    }
-    framebuffer.bind();
+  Result<void> readable(const Drawing::Impl& drawing) {
+    if (drawing.drawn < 1) return Error::failed("nothing is drawn yet", "render");
+    return context.makeCurrent();
+  }
+
+  Result<void> makeTarget(Drawing::Impl& drawing) {
+    const int width = drawing.frame.width, height = drawing.frame.height;
+    if (drawing.target.width() == width && drawing.target.height() == height) return {};
+    drawing.target = gpu::Texture::make2d(GL_RGBA32F, width, height);
+    drawing.framebuffer = gpu::Framebuffer(drawing.target);
+    SWARD_TRY(context.checkErrors("framebuffer"));
+    if (!drawing.framebuffer.complete()) return Error::failed("the driver cannot draw into floats", "framebuffer");
     return {};
   }
 
@@ -91,41 +136,51 @@ struct Renderer::Impl {
             hazeKm > 0.0 ? 1.0 / (hazeKm * kMetresPerKilometre) : 0.0};
   }
 
-  /// Relights what the plan reads, then draws `samples` samples, added up with equal weights.
-  Result<void> draw(const Frame& frame, int samples) {
+  Result<void> begin(Drawing::Impl& drawing, const Frame& frame) {
     SWARD_TRY(checkFrame(frame));
     SWARD_TRY(ready());
-    const BlockPlan plan = planBlocks(frame, *ground, relit->hasBlades());
-    SWARD_TRY(relit->relight(programs, plan.sets));
+    drawing.drawn = frame.options.samples;  // nothing more to draw, should the rest fail
+    drawing.frame = frame;
+    SWARD_TRY(makeTarget(drawing));
+    drawing.plan = planBlocks(frame, *ground, relit->hasBlades());
+    SWARD_TRY(relit->relight(programs, drawing.plan.sets));
     makeMap(frame.options);
-    SWARD_TRY(bindTarget(frame.width, frame.height));
-    const bool several = samples > 1;
-    if (several) {
+    if (frame.options.samples > 1 || frame.columns) {
       constexpr float kBlack[4] = {};
-      gpu::gl().ClearNamedFramebufferfv(framebuffer.name(), GL_COLOR, 0, kBlack);
+      gpu::gl().ClearNamedFramebufferfv(drawing.framebuffer.name(), GL_COLOR, 0, kBlack);
+    }
+    drawing.drawn = 0;
+    drawing.revision = revision;
+    return context.checkErrors("relighting");
+  }
+
+  Result<void> addSample(Drawing::Impl& drawing) {
+    const int samples = drawing.frame.options.samples;
+    if (drawing.drawn >= samples) return Error::failed("all samples are drawn", "render");
+    if (drawing.revision != revision) return Error::failed("ground or light changed within a picture", "render");
+    SWARD_TRY(ready());
+    const Columns columns = drawing.frame.drawn();
+    drawing.framebuffer.bind();
+    if (samples > 1) {
       gpu::gl().BlendFunc(GL_ONE, GL_ONE);
       gpu::gl().Enable(GL_BLEND);
     }
-    Result<void> drawn;
-    for (int sample = 0; sample < samples && drawn.ok(); ++sample)
-      drawn = pass.draw(programs, input(), frame, plan, sample, 1.0 / samples);
+    if (drawing.frame.columns) {
+      gpu::gl().Scissor(columns.begin, 0, columns.end - columns.begin, drawing.frame.height);
+      gpu::gl().Enable(GL_SCISSOR_TEST);
+    }
+    Result<void> drawn = pass.draw(programs, input(), drawing.frame, drawing.plan, drawing.drawn, 1.0 / samples);
     gpu::gl().Disable(GL_BLEND);
+    gpu::gl().Disable(GL_SCISSOR_TEST);
     SWARD_TRY(std::move(drawn));
+    ++drawing.drawn;
     return context.checkErrors("drawing");
   }
 
-  /// The target's RGB, rows from the top.
-  image::Image readTarget() const {
-    image::Image out(target.width(), target.height(), 3);
-    gpu::gl().PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gpu::gl().GetTextureImage(target.name(), 0, GL_RGB, GL_FLOAT, static_cast<GLsizei>(out.pixels.size() * 4),
-                              out.pixels.data());
-    const auto row = static_cast<std::ptrdiff_t>(out.offset(0, 1));
-    for (int y = 0; y < out.height / 2; ++y) {
-      const auto top = out.pixels.begin() + y * row;
-      std::swap_ranges(top, top + row, out.pixels.begin() + (out.height - 1 - y) * row);
-    }
-    return out;
+  Result<void> drawAll(const Frame& frame) {
+    SWARD_TRY(begin(*whole.m_impl, frame));
+    while (!whole.complete()) SWARD_TRY(addSample(*whole.m_impl));
+    return {};
   }
 };
 
@@ -152,6 +207,7 @@ Result<void> Renderer::setGround(std::shared_ptr<const bake::GroundBake> ground)
   impl.relit.reset();
   SWARD_ASSIGN(RelitGround relit, RelitGround::create(*ground));
   impl.macro.reset();
+  ++impl.revision;
   SWARD_TRY(impl.context.checkErrors("uploading the ground"));
   impl.ground = std::move(ground);
   impl.relit = std::move(relit);
@@ -163,6 +219,7 @@ void Renderer::setDaylight(const scene::Daylight& daylight, double hazeKm) {
   Impl& impl = *m_impl;
   if (!impl.context.makeCurrent().ok()) return;
   impl.daylight = daylight;
+  ++impl.revision;
   impl.hazeKm = hazeKm;
   impl.sky = makeSkyTexture(daylight);
   impl.horizonValues = makeHorizonBuffer(daylight);
@@ -170,20 +227,64 @@ void Renderer::setDaylight(const scene::Daylight& daylight, double hazeKm) {
   if (impl.relit) impl.relit->setIllumination(illuminationOf(daylight));
 }
 
+Result<void> Renderer::begin(Drawing& drawing, const Frame& frame) {
+  return m_impl->begin(*drawing.m_impl, frame);
+}
+
+Result<void> Renderer::addSample(Drawing& drawing) {
+  return m_impl->addSample(*drawing.m_impl);
+}
+
+Result<image::Image> Renderer::readLinear(const Drawing& drawing) {
+  SWARD_TRY(m_impl->readable(*drawing.m_impl));
+  const std::vector<float> rgba = drawing.m_impl->read();
+  const float gain = drawing.m_impl->gain();
+  image::Image out(drawing.width(), drawing.height(), 3);
+  const auto row = static_cast<std::size_t>(out.width);
+  for (int y = 0; y < out.height; ++y) {
+    const float* from = rgba.data() + static_cast<std::size_t>(out.height - 1 - y) * row * 4;
+    float* to = out.pixels.data() + out.offset(0, y);
+    for (std::size_t x = 0; x < row; ++x)
+      for (std::size_t c = 0; c < 3; ++c) to[3 * x + c] = from[4 * x + c] * gain;
+  }
+  return out;
+}
+
+Result<image::Image> Renderer::readDisplay(const Drawing& drawing) {
+  SWARD_ASSIGN(const image::Image linear, readLinear(drawing));
+  return toDisplay(linear, drawing.m_impl->frame.options.viewTransform);
+}
+
+Result<void> Renderer::readBytes(const Drawing& drawing, image::ByteImage& out) {
+  SWARD_TRY(m_impl->readable(*drawing.m_impl));
+  const Drawing::Impl& impl = *drawing.m_impl;
+  const std::vector<float> rgba = impl.read();
+  if (out.width != impl.frame.width || out.height != impl.frame.height)
+    out = {impl.frame.width, impl.frame.height, std::vector<std::uint8_t>(rgba.size())};
+  toDisplayBytes(rgba, impl.gain(), impl.frame.options.viewTransform, impl.frame.drawn(), out);
+  return {};
+}
+
+Result<void> Renderer::finish() {
+  SWARD_TRY(m_impl->context.makeCurrent());
+  gpu::gl().Finish();
+  return m_impl->context.checkErrors("drawing");
+}
+
 Result<image::Image> Renderer::drawLinear(const Frame& frame) {
-  SWARD_TRY(m_impl->draw(frame, frame.options.samples));
-  return m_impl->readTarget();
+  SWARD_TRY(m_impl->drawAll(frame));
+  return readLinear(m_impl->whole);
 }
 
 Result<image::Image> Renderer::drawDisplay(const Frame& frame) {
-  SWARD_ASSIGN(const image::Image linear, drawLinear(frame));
-  return toDisplay(linear, frame.options.viewTransform);
+  SWARD_TRY(m_impl->drawAll(frame));
+  return readDisplay(m_impl->whole);
 }
 
 Result<void> Renderer::drawOnly(const Frame& frame) {
   Frame single = frame;
   single.options.samples = 1;
-  SWARD_TRY(m_impl->draw(single, 1));
+  SWARD_TRY(m_impl->drawAll(single));
   gpu::gl().Finish();
   return {};
 }
@@ -191,6 +292,7 @@ Result<void> Renderer::drawOnly(const Frame& frame) {
 Result<void> Renderer::relight(const scene::Daylight& daylight, bool tilesOnly) {
   Impl& impl = *m_impl;
   impl.daylight = daylight;
+  ++impl.revision;
   SWARD_TRY(impl.ready());
   impl.relit->setIllumination(illuminationOf(daylight));
   impl.relit->invalidate();

@@ -3,12 +3,15 @@
 #include "bake/ground_bake.h"
 #include "base/result.h"
 #include "gpu/context.h"
+#include "image/bytes.h"
 #include "image/image.h"
+#include "render/display.h"
 #include "render/options.h"
 #include "scene/camera.h"
 #include "scene/sun_sky.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +23,30 @@ struct Frame {
   int width = 1280, height = 720;
   double exposure = 1.0;  ///< multiplies linear radiance before the view transform
   RenderOptions options;
+  /// Only these columns are drawn, the rest stays black: one side of a split picture. Nothing: all.
+  std::optional<Columns> columns;
+
+  Columns drawn() const { return columns.value_or(Columns{0, width}); }
+};
+
+/// A picture that grows sample by sample, and the texture that holds it. Begun and drawn by one renderer; may be begun
+/// again, which keeps the texture where the size is the same. Goes before its context does, with the context current.
+class Drawing {
+ public:
+  Drawing();
+  ~Drawing();
+  Drawing(Drawing&&) noexcept;
+  Drawing& operator=(Drawing&&) noexcept;
+
+  int width() const;
+  int height() const;
+  int samples() const;    ///< drawn so far
+  bool complete() const;  ///< all of the frame's samples are drawn
+
+ private:
+  friend class Renderer;
+  struct Impl;
+  std::unique_ptr<Impl> m_impl;
 };
 
 /// Draws a baked ground under a sun and sky. The world's origin is the south-west corner of the tile map's middle cell;
@@ -35,6 +62,19 @@ class Renderer {
   /// Takes a new light; what a picture reads is relit when it is drawn, if the light differs from the last. `hazeKm`:
   /// distance at which aerial perspective hides 63 % (scene::SkyOptions); 0: none.
   void setDaylight(const scene::Daylight& daylight, double hazeKm = 12.0);
+
+  /// Starts a picture: relights what it reads, clears what was drawn. The samples follow with addSample().
+  Result<void> begin(Drawing& drawing, const Frame& frame);
+  /// Draws the next sample. Errors: all are drawn; ground or light have changed since begin().
+  Result<void> addSample(Drawing& drawing);
+  /// The mean of the samples drawn so far, as drawLinear() and drawDisplay() give it; the same bytes once complete.
+  Result<image::Image> readLinear(const Drawing& drawing);
+  Result<image::Image> readDisplay(const Drawing& drawing);
+  /// The same in 8 bits, the bytes that image::writePng makes of readDisplay(), for the columns that the frame draws;
+  /// `out` takes the picture's size and keeps its other columns when it has that size already.
+  Result<void> readBytes(const Drawing& drawing, image::ByteImage& out);
+  /// Waits until everything asked for is drawn.
+  Result<void> finish();
 
   /// Draws options.samples jittered samples and averages them; linear radiance times exposure, RGB.
   Result<image::Image> drawLinear(const Frame& frame);
@@ -58,8 +98,5 @@ class Renderer {
   struct Impl;
   std::unique_ptr<Impl> m_impl;
 };
-
-/// Linear radiance times exposure to display: the view transform, then sRGB encoding, per pixel.
-image::Image toDisplay(const image::Image& linear, ViewTransform transform);
 
 }  // namespace sward::render

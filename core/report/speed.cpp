@@ -2,6 +2,7 @@
 
 #include "bake/bake.h"
 #include "bake/plants.h"
+#include "render/frame_plan.h"
 #include "render/renderer.h"
 #include "report/speed_fit.h"
 #include "report/speed_render.h"
@@ -61,13 +62,13 @@ std::optional<std::uint64_t> peakMemoryBytes() {
 Result<void> drawOnce(const SpeedInput& input, const GroundPtr& ground) {
   const project::Project& project = input.project;
   const scene::View view = project.views.empty() ? scene::View{} : project.views.front();
-  SWARD_ASSIGN(const scene::Camera camera, scene::cameraFromView(view));
-  SWARD_ASSIGN(const glm::dvec3 sun, scene::sunDirection(project.sun));
-  const scene::Daylight daylight(sun, project.sun, project.sky);
+  SWARD_ASSIGN(const scene::Daylight daylight, render::daylightOf(project));
+  SWARD_ASSIGN(render::Frame frame, render::planFrame(project, view, daylight));
+  frame.width = kWidth;
+  frame.height = kHeight;
   SWARD_ASSIGN(const auto renderer, render::Renderer::create(input.context));
   SWARD_TRY(renderer->setGround(ground));
   renderer->setDaylight(daylight, project.sky.hazeKm);
-  const render::Frame frame{camera, kWidth, kHeight, daylight.autoExposure(), project.render};
   SWARD_ASSIGN(const image::Image picture, renderer->drawDisplay(frame));
   return picture.empty() ? Result<void>(Error::failed("the picture is empty")) : Result<void>();
 }

@@ -5,9 +5,8 @@
 #include "image/io.h"
 #include "project/limits.h"
 #include "project/nearest.h"
+#include "render/frame_plan.h"
 #include "render/renderer.h"
-#include "scene/camera.h"
-#include "scene/sun_sky.h"
 
 #include <charconv>
 #include <cmath>
@@ -97,11 +96,10 @@ Result<void> checkPicture(const fs::path& file) {
 struct RenderPlan {
   project::Project project;
   scene::View view;
-  scene::Camera camera;
   scene::Daylight daylight;
+  render::Frame frame;
   fs::path output;
   bool linear = false;
-  double exposure = 1.0;
 };
 
 Result<RenderPlan> planRender(const Program& program, const RenderRequest& request) {
@@ -113,14 +111,12 @@ Result<RenderPlan> planRender(const Program& program, const RenderRequest& reque
   SWARD_TRY(checkProject(program, project));
   SWARD_TRY(checkPicture(request.output));
   SWARD_ASSIGN(const scene::View view, chooseView(project, request.view));
-  SWARD_ASSIGN(const scene::Camera camera, scene::cameraFromView(view));
-  SWARD_ASSIGN(const glm::dvec3 sun, scene::sunDirection(project.sun));
-  const scene::Daylight daylight(sun, project.sun, project.sky);
-  const double exposure = daylight.autoExposure() * std::exp2(view.exposureEv + request.exposureEv);
+  SWARD_ASSIGN(const scene::Daylight daylight, render::daylightOf(project));
+  SWARD_ASSIGN(const render::Frame frame, render::planFrame(project, view, daylight, request.exposureEv));
   std::string extension = fs::path(request.output).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return RenderPlan{std::move(project), view, camera, daylight, request.output, extension == ".exr", exposure};
+  return RenderPlan{std::move(project), view, daylight, frame, request.output, extension == ".exr"};
 }
 
 struct RenderTimes {
@@ -135,9 +131,8 @@ Result<image::Image> drawPicture(Program& program, const RenderPlan& plan, gpu::
   times.upload = watch.lap();
   renderer->setDaylight(plan.daylight, plan.project.sky.hazeKm);
   if (program.interrupts.requested()) return Error::cancelled();
-  const render::Frame frame{plan.camera, plan.project.output.width, plan.project.output.height, plan.exposure,
-                            plan.project.render};
-  SWARD_ASSIGN(image::Image picture, plan.linear ? renderer->drawLinear(frame) : renderer->drawDisplay(frame));
+  SWARD_ASSIGN(image::Image picture,
+               plan.linear ? renderer->drawLinear(plan.frame) : renderer->drawDisplay(plan.frame));
   times.draw = watch.lap();
   if (program.interrupts.requested()) return Error::cancelled();
   return picture;
@@ -147,9 +142,9 @@ Json resultJson(const RenderPlan& plan, const gpu::DeviceInfo& device, const Ren
                 const bake::BakeReport& baked) {
   return {{"file", plan.output.string()},
           {"view", plan.view.name},
-          {"width", plan.project.output.width},
-          {"height", plan.project.output.height},
-          {"exposure", plan.exposure},
+          {"width", plan.frame.width},
+          {"height", plan.frame.height},
+          {"exposure", plan.frame.exposure},
           {"device", device.api + ", " + device.renderer},
           {"seconds",
            {{"start", times.start},

@@ -16,13 +16,17 @@
 
 namespace sward::editor {
 
-/// Two halves of one picture: what is drawn right of the split, and how the two are shown.
+/// Two pictures of one view in one: the project's own, and another one.
 struct Comparison {
-  enum class Show { Split, Difference };
+  enum class Show {
+    Split,             ///< the project's own left of the split, the other right of it
+    Difference,        ///< gain |other - own| of the display values, channel by channel: black where they are equal
+    SignedDifference,  ///< 1/2 + gain (other - own) / 2: mid-grey where they are equal
+  };
   Show show = Show::Split;
   double splitAt = 0.5;           ///< of the width
-  render::GroundMethod method{};  ///< of the right half; the left has the project's own
-  /// A bake of another basis for the right half; none: the same ground drawn by the other method.
+  render::GroundMethod method{};  ///< of the other picture
+  /// A bake of another basis for the other picture; none: the same ground drawn by the other method.
   std::shared_ptr<const bake::GroundBake> ground;
   double differenceGain = 4.0;
 };
@@ -35,29 +39,32 @@ struct ViewRequest {
   int width = 1280, height = 720;
   render::ViewMode mode;
   std::optional<Comparison> comparison;
-  bool moving = false;  ///< the camera or a slider moves: half resolution, one sample
+  bool moving = false;  ///< the camera or a slider moves: half resolution (rounded up), one sample
   std::uint64_t id = 0;
 };
 
 /// A finished or growing picture, sRGB with alpha 255, rows from the top.
 struct ViewPicture {
-  std::uint64_t id = 0;  ///< of the request
-  int width = 0, height = 0;
+  std::uint64_t id = 0;       ///< of the request
+  int width = 0, height = 0;  ///< half the request's (rounded up) when it was a moving one
   std::vector<std::uint8_t> rgba;
   int samples = 0;      ///< drawn so far
-  bool final = false;   ///< all samples of the project's output: what `sward render` writes
+  bool final = false;   ///< all samples of the project's output: shaded and alone, it is what `sward render` writes
   double drawMs = 0.0;  ///< of the last sample
 };
 
 /// Draws the viewport on a thread and a context of its own, so that no picture ever holds up the UI. A newer request
 /// replaces the older one after the sample being drawn; pictures grow sample by sample up to the project's number.
+/// Every request that is begun gives a picture, so that a stream of requests is never starved.
 class ViewService {
  public:
   struct Options {
     gpu::Device device = gpu::Device::Auto;
-    std::function<void()> onPicture;  ///< called from the service's thread; may be empty
+    /// Called from the service's thread when there is a new picture or error; may be empty.
+    std::function<void()> onPicture;
   };
   explicit ViewService(Options options);
+  /// Joins; within the time of one sample.
   ~ViewService();
   ViewService(const ViewService&) = delete;
   ViewService& operator=(const ViewService&) = delete;

@@ -189,6 +189,9 @@ TEST_P(BakeColourEdit, TracesNoRay) {
       [](Project& p) { p.patch.plants[0].grass.colourVariation = 0.4; },
       [](Project& p) { p.patch.plants[0].grass.optics.translucency = 0.1; },
       [](Project& p) {
+        p.patch.plants[0].grass.colourAlong = base::Curve::fromPoints({{0.0, 1.0}, {0.5, 0.0}, {1.0, 1.0}}).value();
+      },
+      [](Project& p) {
         p.patch.plants[1].flower.petalColour = {0.8, 0.1, 0.1};
       },
       [](Project& p) {
@@ -211,7 +214,15 @@ TEST_P(BakeColourEdit, TracesNoRay) {
   EXPECT_NE(payloadOf(*again.ground), payloadOf(*s_first.ground));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, BakeColourEdit, testing::Range(0, 6));
+TEST_F(BakeGraph, AHeightCurveIsGeometry) {
+  const Baked again = rebake([](Project& p) {
+    p.patch.plants[0].grass.heightDistribution = base::Curve::fromPoints({{0.5, 0.0}, {1.0, 1.0}, {1.5, 0.0}}).value();
+  });
+  EXPECT_GT(rays(again.report), 0u);
+  EXPECT_TRUE(bakedKinds(again.report).contains("hits"));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BakeColourEdit, testing::Range(0, 7));
 
 TEST_F(BakeGraph, OneChangedLightIsTracedAlone) {
   const auto edit = [](Project& p) { p.lights.directions[2] = {80.0, 30.0}; };
@@ -434,6 +445,7 @@ TEST(Plants, ColoursDoNotMoveGeometry) {
   Project recoloured = project;
   recoloured.patch.plants[0].grass.colourVariation = 0.0;
   recoloured.patch.plants[0].grass.tipColour = {0.9, 0.1, 0.4};
+  recoloured.patch.plants[0].grass.colourAlong = base::Curve::constant(0.25);
   recoloured.patch.plants[0].grass.seedHeadShare = project.patch.plants[0].grass.seedHeadShare;
   recoloured.patch.plants[1].flower.colourVariation = 0.0;
   for (std::size_t plant = 0; plant < 2; ++plant) {

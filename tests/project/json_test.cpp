@@ -32,6 +32,8 @@ Project fullProject() {
   gltf.gltf.material = material;
   project.patch.plants.push_back(gltf);
   project.patch.plants[0].grass.profile = base::Curve::fromPoints({{0.0, 0.6}, {0.3, 1.0}, {1.0, 0.0}}).value();
+  project.patch.plants[0].grass.heightDistribution = base::Curve::fromPoints({{0.2, 0.1}, {1.0, 0.9}}).value();
+  project.patch.plants[0].grass.colourAlong = base::Curve::fromPoints({{0.0, 0.1}, {1.0, 0.8}}).value();
   project.patch.soil.texture = "soil.png";
   project.lights.directions = {{10.0, 20.0}, {30.0, 40.0}};
   project.sun.byMoment = true;

@@ -8,32 +8,40 @@
 #include <imgui.h>
 
 namespace sward::editor {
+namespace {
 
-Application::Application(ApplicationOptions options, PreferencesLoad loaded, const UiGl& gl, std::function<void()> wake)
+/// Notices fade and go by themselves.
+constexpr double kToastSeconds = 0.1;
+
+}  // namespace
+
+Application::Application(ApplicationOptions options, LoadedPreferences loaded, const UiGl& gl, std::function<void()> wake)
     : m_options(std::move(options)),
       m_preferences(std::move(loaded.preferences)),
       m_gl(gl),
-      m_wake(std::move(wake)),
-      m_autosave(std::make_unique<Autosave>(m_preferences.autosaveSeconds)),
-      m_watch(std::make_unique<FileWatch>()) {
-  if (!loaded.message.empty()) notice(loaded.message);
-  m_layout.left = m_preferences.layoutOr("left", m_layout.left);
-  m_layout.right = m_preferences.layoutOr("right", m_layout.right);
-  m_layout.bottom = m_preferences.layoutOr("bottom", m_layout.bottom);
+      m_wake(std::move(wake)) {
+  for (const std::string& message : loaded.messages) notice(message);
+  const auto remembered = [&](const char* panel, float& size) {
+    const auto found = m_preferences.panelSizes.find(panel);
+    if (found != m_preferences.panelSizes.end()) size = static_cast<float>(found->second);
+  };
+  remembered("outliner", m_layout.left);
+  remembered("inspector", m_layout.right);
+  remembered("bottom", m_layout.bottom);
   if (!m_options.itemLog.empty()) setItemLog(&m_itemLog);
   LiveLink::Options live;
   live.cacheFolder = m_options.cacheFolder;
   live.cacheLimitBytes = m_preferences.cacheLimitBytes;
   live.threads = m_options.threads;
-  live.device = m_options.device.value_or(m_preferences.deviceOrAuto());
+  live.device = device();
   live.wake = m_wake;
   m_live = std::make_unique<LiveLink>(gl, live);
   registerActions();
   setDialogActions();
   openAtStart();
   if (m_preferences.showHints) m_dialogs.openHints();
-  auto recoverable = findRecoverable();
-  if (!recoverable.empty()) m_dialogs.offerRecovery(std::move(recoverable));
+  RecoveryList recoverable = findRecoverable();
+  if (!recoverable.usable.empty() || !recoverable.damaged.empty()) m_dialogs.offerRecovery(std::move(recoverable));
 }
 
 Application::~Application() {
@@ -43,21 +51,20 @@ Application::~Application() {
 void Application::shutDown(bool interrupted) {
   // An interrupt asks nobody: what is unsaved stays for the next start.
   if (interrupted && m_document->modified()) {
-    m_autosave->writeNow(*m_document);
-    m_autosave->keep();
+    (void)m_autosave.write(*m_document);
   } else {
-    m_autosave->discard();
+    m_autosave.clear();
   }
-  m_preferences.layout["left"] = m_layout.left;
-  m_preferences.layout["right"] = m_layout.right;
-  m_preferences.layout["bottom"] = m_layout.bottom;
+  m_preferences.panelSizes["outliner"] = m_layout.left;
+  m_preferences.panelSizes["inspector"] = m_layout.right;
+  m_preferences.panelSizes["bottom"] = m_layout.bottom;
   (void)savePreferences(m_preferences);
 }
 
 bool Application::poll(double seconds) {
   m_seconds = seconds;
   const bool changed = m_live->poll();
-  m_autosave->tick(*m_document, seconds);
+  autosave();
   watchFiles();
   return changed || m_dialogs.pictureRunning() || m_noticed;
 }
@@ -65,7 +72,7 @@ bool Application::poll(double seconds) {
 std::optional<double> Application::nextWake() const {
   std::optional<double> wake = m_live->nextWake();
   const auto sooner = [&](double at) { wake = wake ? std::min(*wake, at) : at; };
-  if (const auto toast = m_toasts.nextWake()) sooner(*toast);
+  if (m_toasts.needFrames()) sooner(m_seconds + kToastSeconds);
   if (m_ui.playingDay || m_viewport.flying()) sooner(m_seconds + 1.0 / 30.0);
   return wake;
 }
@@ -82,10 +89,9 @@ void Application::frame(double seconds, int width, int height) {
   drawPanels(panels, width, height);
   drawDialogs(width, height);
   m_palette.draw(m_actions, width, height);
-  m_toasts.draw(width, height, seconds);
+  m_toasts.draw({0.0f, 0.0f}, {static_cast<float>(width), static_cast<float>(height) - px(30.0f)});
   m_live->update(*m_document, m_ui, m_viewport.width(), m_viewport.height(), seconds);
-  logState();
-  writeItemLog();
+  writeItemLog(width, height);
 }
 
 void Application::frameShown(double milliseconds) {
@@ -111,7 +117,7 @@ void Application::run(const std::string& action) {
 }
 
 void Application::notice(const std::string& text) {
-  m_toasts.add(text, m_seconds);
+  m_toasts.add(Severity::Info, text);
   m_noticed = true;
   if (m_wake) m_wake();
 }

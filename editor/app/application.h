@@ -16,6 +16,7 @@
 #include "panels/light_panel.h"
 #include "panels/outliner.h"
 #include "panels/panel_context.h"
+#include "panels/camera_control.h"
 #include "panels/viewport.h"
 #include "widgets/file_dialog.h"
 #include "widgets/item_log.h"
@@ -26,6 +27,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sward::editor {
@@ -46,7 +48,7 @@ struct ApplicationOptions {
 class Application : public EditSink {
  public:
   /// `wake` is called from any thread when frame() has something new to show. `gl` outlives the application.
-  Application(ApplicationOptions options, const UiGl& gl, std::function<void()> wake);
+  Application(ApplicationOptions options, LoadedPreferences loaded, const UiGl& gl, std::function<void()> wake);
   ~Application() override;
 
   /// Takes what the services have, looks after autosave and files; true when a frame should be drawn.
@@ -62,6 +64,8 @@ class Application : public EditSink {
   void dropped(const std::vector<std::filesystem::path>& files);
   /// The window's close button: asks about unsaved changes first.
   void closeRequested();
+  /// Before the end: remembers the layout. `interrupted`: what is unsaved stays as an autosave for the next start.
+  void shutDown(bool interrupted);
   bool wantsToQuit() const { return m_quit; }
   std::string title() const;
   /// The theme or scale changed: fonts are to be loaded anew before the next frame.
@@ -78,6 +82,7 @@ class Application : public EditSink {
   void closeStep() override;
   void run(const std::string& action) override;
   void notice(const std::string& text) override;
+  void browse(const std::string& path, const std::string& files) override;
 
  private:
   // application_actions.cpp
@@ -88,35 +93,66 @@ class Application : public EditSink {
   void registerViewActions();
   void registerHelpActions();
   void handleShortcuts();
+  void afterHistory();
+  void frameSelection();
+  void lookFrom(StandardView from);
+  void cameraMoved();
+  void nextView();
+  void saveView();
+  void updateView();
+  void removeView();
+  void openDocumentation();
+  gpu::Device device() const;
 
   // application_files.cpp
   void openAtStart();
+  void startFromTemplate(const std::string& name);
   void open(const std::filesystem::path& file);
+  void recoverFrom(const std::filesystem::path& autosave);
   void replaceDocument(Document document);
-  void save(const std::filesystem::path& file, const std::function<void()>& then = {});
+  void showDocument(Document document);
+  void showMissingAssets();
+  void save(const std::function<void()>& then = {});
   void saveAs(const std::function<void()>& then = {});
+  void saveDone(const std::function<void()>& then);
   void revert();
+  void chooseProject();
+  void choosePlantFile();
+  void chooseOutput(const std::function<void(const std::filesystem::path&)>& then);
   /// Runs `then` at once, or after the user said what to do with unsaved changes.
   void whenSaved(const std::function<void()>& then);
   void addPlantFrom(const std::filesystem::path& mesh);
-  void watchFiles(double seconds);
+  void autosave();
+  void watchFiles();
   void chooseFile(FileDialogOptions options, std::function<void(const std::filesystem::path&)> then);
 
   // application_shell.cpp
   PanelContext context(double seconds);
   void drawMenuBar();
+  void drawRecentMenu();
   void drawToolbar();
+  void toolButton(const char* id);
+  void drawCompareControls();
   void drawPanels(PanelContext& context, int width, int height);
   void drawBottom(PanelContext& context);
-  void drawDialogs(PanelContext& context);
-  float splitter(const char* id, bool vertical, float at, float low, float high, float sign);
-  void writeItemLog();
+  void drawTab(PanelContext& context, BottomTab tab);
+  void setDialogActions();
+  void drawDialogs(int width, int height);
+  void writeItemLog(int width, int height);
+
+  /// Sizes of the panels round the viewport, design pixels.
+  struct Layout {
+    float left = 250.0f, right = 350.0f, bottom = 250.0f;
+  };
 
   ApplicationOptions m_options;
   Preferences m_preferences;
+  const UiGl& m_gl;
+  std::function<void()> m_wake;
   std::unique_ptr<Document> m_document;
-  std::unique_ptr<Autosave> m_autosave;
-  std::unique_ptr<FileWatch> m_watch;
+  Autosave m_autosave;
+  std::uint64_t m_autosavedRevision = 0;  ///< of the state whose copy lies in the recovery folder
+  FileWatch m_watch;
   std::unique_ptr<LiveLink> m_live;
   ActionTable m_actions;
   UiState m_ui;
@@ -133,11 +169,15 @@ class Application : public EditSink {
   DayPanel m_day;
   CommandPalette m_palette;
   Dialogs m_dialogs;
+  DialogActions m_dialogActions;
   FileDialog m_fileDialog;
   std::function<void(const std::filesystem::path&)> m_fileChosen;
 
+  Layout m_layout;
+  BottomTab m_shownTab = BottomTab::Curves;
   double m_seconds = 0.0;
   bool m_quit = false;
+  bool m_noticed = false;
   bool m_styleChanged = true;
 };
 

@@ -98,9 +98,9 @@ void Application::registerPlantActions() {
   for (const project::PlantPreset& preset : project::plantPresets()) {
     m_actions.add({.id = "plant.add." + preset.name, .menu = "Plant", .label = "Add " + preset.name,
                    .help = preset.description, .icon = icon::kLeaf, .run = [this, &preset] {
-                     const std::size_t at = m_document->project().patch.plants.size();
-                     edit("add " + preset.name, [&](project::Project& p) { addPlant(p, preset.plant); }, {});
-                     m_ui.selection = Selection::plant(at);
+                     std::optional<std::size_t> added;
+                     edit("add " + preset.name, [&](project::Project& p) { added = addPlant(p, preset.plant); }, {});
+                     if (added) m_ui.selection = selectPlant(m_document->project(), *added);
                    }});
   }
   const auto plantChosen = [this] { return m_ui.selection.kind == Selection::Kind::Plant; };
@@ -113,7 +113,7 @@ void Application::registerPlantActions() {
                      [this] {
                        const std::size_t i = m_ui.selection.index;
                        edit("duplicate plant", [i](project::Project& p) { duplicatePlant(p, i); }, {});
-                       m_ui.selection = Selection::plant(i + 1);
+                       m_ui.selection = selectPlant(m_document->project(), i + 1);
                      },
                  .enabled = plantChosen, .separatorBefore = true});
   m_actions.add({.id = "plant.remove", .menu = "Plant", .label = "Remove", .help = "Take the chosen plant out of the patch",
@@ -145,6 +145,10 @@ void Application::registerViewActions() {
   m_actions.add({.id = "view.update", .menu = "View", .label = "Update the chosen view",
                  .help = "Move the chosen view of the project to where the camera is", .icon = icon::kTarget,
                  .run = [this] { updateView(); },
+                 .enabled = [this] { return m_ui.selection.kind == Selection::Kind::View; }});
+  m_actions.add({.id = "view.remove", .menu = "View", .label = "Remove the chosen view",
+                 .help = "Take the chosen view out of the project", .icon = icon::kDelete,
+                 .run = [this] { removeView(); },
                  .enabled = [this] { return m_ui.selection.kind == Selection::Kind::View; }});
   m_actions.add({.id = "view.compare", .menu = "View", .label = "Compare two methods",
                  .help = "Split the picture: your method left, another right", .icon = icon::kCompare,
@@ -198,7 +202,7 @@ void Application::handleShortcuts() {
 }
 
 void Application::afterHistory() {
-  m_ui.selection = clampSelection(m_ui.selection, m_document->project());
+  m_ui.selection = followSelection(m_ui.selection, m_document->project());
   if (m_ui.boundView && *m_ui.boundView >= m_document->project().views.size()) m_ui.boundView.reset();
 }
 
@@ -228,16 +232,23 @@ void Application::nextView() {
 }
 
 void Application::saveView() {
-  const std::size_t at = m_document->project().views.size();
-  edit("add view", [this](project::Project& p) { addView(p, m_ui.camera); }, {});
-  m_ui.selection = Selection::view(at);
-  m_ui.boundView = at;
+  std::optional<std::size_t> added;
+  edit("add view", [&](project::Project& p) { added = addView(p, m_ui.camera); }, {});
+  if (!added) return;
+  m_ui.selection = selectView(m_document->project(), *added);
+  m_ui.boundView = added;
 }
 
 void Application::updateView() {
   const std::size_t index = m_ui.selection.index;
   edit("move view", [&](project::Project& p) { editor::updateView(p, index, m_ui.camera); }, {});
   m_ui.boundView = index;
+}
+
+void Application::removeView() {
+  const std::size_t index = m_ui.selection.index;
+  edit("remove view", [index](project::Project& p) { editor::removeView(p, index); }, {});
+  m_ui.boundView.reset();
 }
 
 }  // namespace sward::editor

@@ -63,7 +63,11 @@ void Application::startFromTemplate(const std::string& name) {
 }
 
 void Application::replaceDocument(Document document) {
-  m_autosave->discard();
+  m_autosave.clear();
+  showDocument(std::move(document));
+}
+
+void Application::showDocument(Document document) {
   *m_document = std::move(document);
   m_ui.selection = {};
   if (!m_document->project().patch.plants.empty()) m_ui.selection = selectPlant(m_document->project(), 0);
@@ -79,7 +83,7 @@ void Application::replaceDocument(Document document) {
   m_ui.activeCurve.clear();
   m_ui.selectedLight.reset();
   if (!m_document->file().empty()) m_preferences.addRecent(m_document->file());
-  m_watch->watch(*m_document);
+  m_watch.watch(*m_document);
   showMissingAssets();
 }
 
@@ -137,9 +141,9 @@ void Application::saveAs(const std::function<void()>& then) {
 }
 
 void Application::saveDone(const std::function<void()>& then) {
-  m_autosave->discard();
+  m_autosave.clear();
   m_preferences.addRecent(m_document->file());
-  m_watch->watch(*m_document);
+  m_watch.watch(*m_document);
   notice("Saved " + m_document->file().filename().string());
   if (then) then();
 }
@@ -148,8 +152,24 @@ void Application::revert() {
   m_document->closeStep();
   const auto reverted = revertDocument(*m_document);
   if (!reverted.ok()) return m_dialogs.showError("The file cannot be read", reverted.error());
-  m_watch->watch(*m_document);
+  m_watch.watch(*m_document);
   afterHistory();
+}
+
+void Application::recoverFrom(const fs::path& autosave) {
+  auto recovered = recover(autosave, m_autosave);
+  if (!recovered.ok()) return m_dialogs.showError("The copy cannot be used", recovered.error());
+  showDocument(std::move(*recovered));
+}
+
+void Application::autosave() {
+  const auto wrote = m_autosave.update(*m_document, std::chrono::steady_clock::now(), m_preferences.autosaveSeconds);
+  if (!wrote.ok()) {
+    notice("No copy for recovery could be written: " + wrote.error().text());
+  } else if (*wrote) {
+    m_autosavedRevision = m_document->revision();
+    m_noticed = true;
+  }
 }
 
 void Application::whenSaved(const std::function<void()>& then) {
@@ -200,6 +220,15 @@ void Application::browse(const std::string& where, const std::string& files) {
   });
 }
 
+void Application::chooseOutput(const std::function<void(const fs::path&)>& then) {
+  FileDialogOptions options;
+  options.mode = FileDialogMode::Save;
+  options.title = "Write the picture to";
+  options.filters = {{"Pictures", {".png", ".exr"}}};
+  options.fileName = "meadow.png";
+  chooseFile(std::move(options), then);
+}
+
 void Application::chooseFile(FileDialogOptions options, std::function<void(const fs::path&)> then) {
   options.folder = m_document->file().empty() ? fs::current_path() : m_document->file().parent_path();
   for (const fs::path& recent : m_preferences.recentFiles) options.recentFolders.push_back(recent.parent_path());
@@ -208,7 +237,7 @@ void Application::chooseFile(FileDialogOptions options, std::function<void(const
 }
 
 void Application::watchFiles() {
-  for (const FileChange& change : m_watch->poll()) {
+  for (const FileChange& change : m_watch.poll()) {
     if (!change.isProject) {
       notice("\"" + change.file.filename().string() + "\" changed on disk: baked again");
       m_live->forgetAssets();

@@ -4,12 +4,14 @@
 #include "panels/history_panel.h"
 #include "panels/status_bar.h"
 #include "widgets/icons.h"
+#include "widgets/parts.h"
 #include "widgets/theme.h"
 
 #include <algorithm>
 #include <array>
 
 #include <imgui.h>
+#include <nlohmann/json.hpp>
 
 namespace sward::editor {
 namespace {
@@ -37,6 +39,21 @@ void beginRegion(const char* name, const Region& region, ImU32 background, ImVec
   ImGui::Begin(name, nullptr, scrolls ? kScrolling : kFixed | ImGuiWindowFlags_NoScrollWithMouse);
   ImGui::PopStyleVar(4);
   ImGui::PopStyleColor();
+}
+
+/// A handle along a region between two panels; the size of the panel that it belongs to, after a drag. Panels right of
+/// and below the viewport grow against the mouse.
+float splitter(const char* id, const Region& at, float size, float most, float usual) {
+  ImGui::SetCursorScreenPos({at.x, at.y});
+  const bool upright = at.height > at.width;
+  const float least = std::min(px(kLeastPanel), most);
+  if (std::string_view(id) == "splitter.left") {
+    splitHandle(id, upright, std::max(at.width, at.height), size, least, most, px(usual));
+    return size;
+  }
+  float mirrored = -size;
+  splitHandle(id, upright, std::max(at.width, at.height), mirrored, -most, -least, -px(usual));
+  return -mirrored;
 }
 
 void menuItem(const Action& action) {
@@ -159,22 +176,6 @@ void Application::drawCompareControls() {
   if (ImGui::SliderFloat("##gain", &gain, 1.0f, 32.0f, "times %.0f", ImGuiSliderFlags_Logarithmic)) compare.gain = gain;
 }
 
-/// A handle between two panels; returns the panel's size after a drag.
-float Application::splitter(const char* id, bool vertical, const std::array<float, 4>& at, float size, float low,
-                            float high) {
-  ImGui::SetCursorScreenPos({at[0], at[1]});
-  ImGui::InvisibleButton(id, {std::max(at[2], 1.0f), std::max(at[3], 1.0f)});
-  logItem("splitter:", id);
-  if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
-    ImGui::SetMouseCursor(vertical ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
-    ImGui::GetWindowDrawList()->AddRectFilled({at[0], at[1]}, {at[0] + at[2], at[1] + at[3]}, theme().colours.accentFill);
-  }
-  if (!ImGui::IsItemActive()) return size;
-  const ImVec2 delta = ImGui::GetIO().MouseDelta;
-  const float grown = size + (vertical ? delta.x : delta.y) * (std::string_view(id) == "##left" ? 1.0f : -1.0f);
-  return std::clamp(grown, std::min(low, high), high);
-}
-
 void Application::drawPanels(PanelContext& context, int width, int height) {
   const Palette& colours = theme().colours;
   const auto w = static_cast<float>(width), h = static_cast<float>(height);
@@ -200,13 +201,13 @@ void Application::drawPanels(PanelContext& context, int width, int height) {
   beginRegion("##splitters", {0.0f, top, w, room}, colours.backdrop, {0.0f, 0.0f}, false);
   const float scale = theme().scale;
   if (m_ui.showOutliner)
-    layout.left = splitter("##left", true, {left, top, gap, room}, left, px(kLeastPanel), 0.3f * w) / scale;
+    layout.left = splitter("splitter.left", {left, top, gap, room}, left, 0.3f * w, 250.0f) / scale;
   if (m_ui.showInspector)
-    layout.right = splitter("##right", true, {w - right - gap, top, gap, room}, right, px(kLeastPanel), 0.4f * w) / scale;
+    layout.right = splitter("splitter.right", {w - right - gap, top, gap, room}, right, 0.4f * w, 350.0f) / scale;
   const float bottomTop = top + room - bottom - gapBottom;
   if (m_ui.showBottom)
     layout.bottom =
-        splitter("##bottom", false, {left + gapLeft, bottomTop, middle, gap}, bottom, px(kLeastPanel), 0.8f * room) / scale;
+        splitter("splitter.bottom", {left + gapLeft, bottomTop, middle, gap}, bottom, 0.75f * room, 250.0f) / scale;
   ImGui::End();
 
   if (m_ui.showOutliner) {
@@ -273,9 +274,21 @@ void Application::drawTab(PanelContext& context, BottomTab tab) {
   }
 }
 
-void Application::writeItemLog() {
+void Application::writeItemLog(int width, int height) {
   if (m_options.itemLog.empty()) return;
-  const std::string text = m_itemLog.toJson();
+  const LiveState& live = m_live->state();
+  nlohmann::ordered_json state{{"position", m_document->position()},
+                               {"undo", m_document->undoName()},
+                               {"modified", m_document->modified()},
+                               {"file", m_document->file().string()},
+                               {"autosaved", m_autosavedRevision == m_document->revision()},
+                               {"baking", live.bake.running},
+                               {"settled", m_live->settled()},
+                               {"viewError", live.viewError ? live.viewError->text() : ""},
+                               {"bakeError", live.bake.error ? live.bake.error->text() : ""},
+                               {"windowWidth", width},
+                               {"windowHeight", height}};
+  const std::string text = "{\"state\": " + state.dump() + ",\n" + m_itemLog.toJson().substr(1);
   if (text == m_itemLogText) return;
   // A reader sees either the last frame's items or this one's.
   if (base::writeFileAtomically(m_options.itemLog, text).ok()) m_itemLogText = text;

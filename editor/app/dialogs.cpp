@@ -49,8 +49,8 @@ void Dialogs::askReload(const std::string& name, std::function<void()> reload) {
   open(Kind::Reload);
 }
 
-void Dialogs::offerRecovery(std::vector<RecoveryEntry> entries) {
-  m_recovery = std::move(entries);
+void Dialogs::offerRecovery(RecoveryList list) {
+  m_recovery = std::move(list);
   open(Kind::Recovery);
 }
 

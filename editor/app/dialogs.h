@@ -19,8 +19,7 @@ namespace sward::editor {
 /// What dialogs ask the application for.
 struct DialogActions {
   std::function<void(const std::string& name)> useTemplate;
-  std::function<void(const RecoveryEntry& entry)> recover;
-  std::function<void(const RecoveryEntry& entry)> dropRecovery;
+  std::function<void(const std::filesystem::path& autosave)> recover;
   std::function<void()> preferencesChanged;  ///< theme or scale
   std::function<void(std::function<void(const std::filesystem::path&)>)> chooseOutput;
   std::function<void(const std::string& where, const std::filesystem::path& file)> relocate;
@@ -42,7 +41,7 @@ class Dialogs {
   void askUnsaved(const std::string& name, std::function<void()> save, std::function<void()> drop);
   /// "Reload or keep mine", when the file changed on disk while there are unsaved changes.
   void askReload(const std::string& name, std::function<void()> reload);
-  void offerRecovery(std::vector<RecoveryEntry> entries);
+  void offerRecovery(RecoveryList list);
   void showMissing(std::vector<std::string> wheres, std::vector<std::string> files);
   void showError(const std::string& title, const Error& error);
 
@@ -91,7 +90,7 @@ class Dialogs {
 
   std::string m_name, m_message;
   std::function<void()> m_yes, m_no;
-  std::vector<RecoveryEntry> m_recovery;
+  RecoveryList m_recovery;
   std::vector<std::string> m_missingWhere, m_missingFile;
 
   struct RenderSettings {

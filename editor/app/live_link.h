@@ -43,6 +43,8 @@ class LiveLink {
   /// Everything of the newest request is on screen: ground at full quality, all samples.
   bool settled() const;
   void cancelBake();
+  /// Pictures that came so far.
+  std::uint64_t pictures() const { return m_pictures; }
 
  private:
   struct Wanted {
@@ -53,6 +55,7 @@ class LiveLink {
     render::ViewMode mode;
     CompareState compare;
     bool moving = false;
+    std::shared_ptr<const bake::GroundBake> other;  ///< of the compared fit
     bool operator==(const Wanted&) const = default;
   };
   void takeGrounds();
@@ -60,6 +63,7 @@ class LiveLink {
   bool takeThumbnails();
   void requestPicture(const Wanted& wanted);
   void requestThumbnails(const Document& document);
+  void updateOther(const Document& document, const CompareState& compare);
 
   const UiGl& m_gl;
   BakeService m_bakes;
@@ -72,6 +76,14 @@ class LiveLink {
   std::uint64_t m_requestId = 0;
   std::optional<double> m_settleAt;
   std::deque<double> m_pictureTimes;
+  std::uint64_t m_pictures = 0;
+  bool m_groundChanged = false;
+
+  BakeService::Options m_bakeOptions;
+  std::unique_ptr<BakeService> m_otherBakes;  ///< of the fit that the viewport compares with, once it is asked for
+  std::shared_ptr<const bake::GroundBake> m_otherGround;
+  std::uint64_t m_otherRevision = 0;
+  CompareState::Other m_otherOther{};
 };
 
 }  // namespace sward::editor

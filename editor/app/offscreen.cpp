@@ -53,13 +53,13 @@ struct OffscreenEditor::Impl {
     ImGui::GetIO().IniFilename = nullptr;
     ImGui::GetIO().DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
     if (!ImGui_ImplOpenGL3_Init("#version 330 core")) return Error::failed("ImGui cannot draw through EGL", "editor");
-    application = std::make_unique<Application>(options, PreferencesLoad{}, gl, [] {});
+    application = std::make_unique<Application>(options, LoadedPreferences{}, gl, [] {});
     return {};
   }
 
   void updateStyle() {
     if (!application->takeStyleChange()) return;
-    const bool light = application->preferences().theme == Preferences::Theme::Light;
+    const bool light = application->preferences().theme == ThemeChoice::Light;
     applyTheme(light ? ThemeKind::Light : ThemeKind::Dark, scale);
     for (const std::string& missing : loadFonts(*ImGui::GetIO().Fonts, theme().scale)) application->notice(missing);
     ImGui_ImplOpenGL3_DestroyFontsTexture();

@@ -112,8 +112,8 @@ Result<WindowHandle> openWindow(const Preferences& preferences) {
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHint(GLFW_MAXIMIZED, preferences.window.maximised ? GLFW_TRUE : GLFW_FALSE);
-  int width = preferences.window.width > 0 ? preferences.window.width : kDefaultWidth;
-  int height = preferences.window.height > 0 ? preferences.window.height : kDefaultHeight;
+  int width = preferences.window.known ? preferences.window.width : kDefaultWidth;
+  int height = preferences.window.known ? preferences.window.height : kDefaultHeight;
   if (const GLFWvidmode* mode = glfwGetVideoMode(glfwGetPrimaryMonitor())) {
     width = std::min(width, mode->width);
     height = std::min(height, mode->height);
@@ -123,6 +123,8 @@ Result<WindowHandle> openWindow(const Preferences& preferences) {
     return Error::failed("the window needs OpenGL 3.3: " + lastGlfwError(), "display",
                          "Update the graphics driver or install Mesa (libgl1-mesa-dri).");
   }
+  if (preferences.window.known && !preferences.window.maximised)
+    glfwSetWindowPos(window.get(), preferences.window.x, preferences.window.y);
   glfwSetWindowSizeLimits(window.get(), kLeastWidth, kLeastHeight, GLFW_DONT_CARE, GLFW_DONT_CARE);
   return window;
 }
@@ -183,7 +185,7 @@ class WindowLoop {
     glfwGetWindowContentScale(m_window, &scaleX, &scaleY);
     const Preferences& preferences = m_application.preferences();
     const float scale = preferences.uiScale > 0.0 ? static_cast<float>(preferences.uiScale) : std::max(scaleX, scaleY);
-    applyTheme(preferences.theme == Preferences::Theme::Light ? ThemeKind::Light : ThemeKind::Dark, scale);
+    applyTheme(preferences.theme == ThemeChoice::Light ? ThemeKind::Light : ThemeKind::Dark, scale);
     for (const std::string& missing : loadFonts(*ImGui::GetIO().Fonts, theme().scale)) m_application.notice(missing);
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
@@ -213,8 +215,10 @@ class WindowLoop {
   void rememberWindow() {
     Preferences& preferences = m_application.preferences();
     preferences.window.maximised = glfwGetWindowAttrib(m_window, GLFW_MAXIMIZED) == GLFW_TRUE;
-    if (!preferences.window.maximised)
-      glfwGetWindowSize(m_window, &preferences.window.width, &preferences.window.height);
+    preferences.window.known = true;
+    if (preferences.window.maximised) return;
+    glfwGetWindowSize(m_window, &preferences.window.width, &preferences.window.height);
+    glfwGetWindowPos(m_window, &preferences.window.x, &preferences.window.y);
   }
 
   GLFWwindow* m_window;
@@ -229,7 +233,7 @@ class WindowLoop {
 Result<int> runWindow(const ApplicationOptions& options, const std::stop_token& stop) {
   Glfw glfw;
   SWARD_TRY(glfw.start());
-  const PreferencesLoad loaded = loadPreferences();
+  const LoadedPreferences loaded = loadPreferences();
   SWARD_ASSIGN(const WindowHandle window, openWindow(loaded.preferences));
   glfwMakeContextCurrent(window.get());
   glfwSwapInterval(0);  // a software renderer has no use for waiting; frames are only drawn when something changed

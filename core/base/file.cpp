@@ -106,8 +106,11 @@ Result<std::string> readTextFile(const fs::path& path, std::uint64_t limitBytes)
   return std::string(reinterpret_cast<const char*>(data.data()), data.size());
 }
 
-Result<void> writeThroughTemporary(const fs::path& path, const std::function<Result<void>(const fs::path&)>& write) {
+Result<void> writeThroughTemporary(const fs::path& named, const std::function<Result<void>(const fs::path&)>& write) {
   std::error_code code;
+  // rename(2) would put a file in the place of a symbolic link.
+  fs::path path = fs::is_symlink(named, code) ? fs::weakly_canonical(named, code) : named;
+  if (code) path = named;
   if (fs::is_directory(path, code)) return ioError("cannot write the file", path, EISDIR);
   const fs::path temporary = temporaryBeside(path);
   Result<void> written = write(temporary);

@@ -22,7 +22,7 @@ Result<std::string> readTextFile(const std::filesystem::path& path, std::uint64_
 enum class Sync { No, Yes };
 
 /// Writes a temporary file beside `path` and renames it, so that `path` holds either its old content or all of the new.
-/// The permissions of a file that is replaced are kept. Creates no folders.
+/// The permissions of a file that is replaced are kept, and a symbolic link is followed. Creates no folders.
 Result<void> writeFileAtomically(const std::filesystem::path& path, std::span<const std::byte> data,
                                  Sync sync = Sync::No);
 Result<void> writeFileAtomically(const std::filesystem::path& path, const std::string& text, Sync sync = Sync::No);

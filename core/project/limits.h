@@ -15,6 +15,8 @@ inline constexpr double kMaxHitRays = 4.0e9;
 inline constexpr double kMaxTileTexels = 5.0e8;
 /// Most tiles of a set: the ground's map keeps one byte a cell, one value is spare.
 inline constexpr int kMaxTiles = 255;
+/// Most light directions: each is a trace of its own, and a fit holds samples of all.
+inline constexpr int kMaxLights = 1024;
 /// With fewer lights than this PTM's six coefficients are not determined.
 inline constexpr int kFewLights = 6;
 

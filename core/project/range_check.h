@@ -57,7 +57,7 @@ class RangeCheck {
   }
   template <typename T>
   void check(const std::string& path, const std::vector<T>& values, const Spec& spec) {
-    if (static_cast<double>(values.size()) > spec.high) number(path, static_cast<double>(values.size()), spec);
+    number(path, static_cast<double>(values.size()), spec);
     for (std::size_t i = 0; i < values.size(); ++i) check(path + "[" + std::to_string(i) + "]", values[i], Spec{});
   }
 

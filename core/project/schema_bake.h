@@ -1,5 +1,6 @@
 #pragma once
 
+#include "project/limits.h"
 #include "project/project.h"
 #include "project/schema_scene.h"
 #include "project/spec.h"
@@ -8,16 +9,54 @@
 namespace sward::project {
 
 template <typename A>
+void describe(A& a, typename A::template Ref<scene::RingOptions> v) {
+  a.field("rings", v.rings, range(1, 16, "rings").soft(1, 6).says("Rings", "Rings of lights, one above the other."));
+  a.field("lightsPerRing", v.lightsPerRing,
+          range(1, 64, "lights").soft(3, 16).says("Lights per ring", "Lights of each ring, spread evenly round it."));
+  a.field("lowestDeg", v.lowestDeg,
+          angle(0.0, 90.0).says("Lowest ring", "Elevation of the lowest ring. Lower it if the sun will stand low."));
+  a.field("highestDeg", v.highestDeg,
+          angle(0.0, 90.0).says("Highest ring", "Elevation of the highest ring; the others stand between."));
+  a.field("zenith", v.zenith,
+          of(Role::Shape)
+              .says("Light above",
+                    "One more light straight above. Without it a single ring cannot tell how "
+                    "light changes with height."));
+}
+
+template <typename A>
+void describe(A& a, typename A::template Ref<scene::SunDate> v) {
+  a.field("month", v.month, range(1, 12).says("Month", "Month of the date, 1 to 12."));
+  a.field("day", v.day, range(1, 31).says("Day", "Day of the month."));
+}
+
+template <typename A>
+void describe(A& a, typename A::template Ref<scene::SunPathOptions> v) {
+  a.field("latitudeDeg", v.latitudeDeg,
+          angle(-90.0, 90.0).says("Latitude", "Degrees north of the equator; negative is south."));
+  a.field("dates", v.dates,
+          range(1, 24, "dates").says("Dates", "Days whose sun is baked. Two or more far apart keep relighting sound."));
+  a.field("positions", v.positions,
+          range(1, 48, "lights").soft(1, 16).says("Lights per day", "Lights along each day, from morning to evening."));
+  a.field("lowestDeg", v.lowestDeg,
+          angle(0.0, 60.0).soft(0.0, 30.0).says("Lowest sun", "The sun counts from this elevation on."));
+}
+
+template <typename A>
 void describe(A& a, typename A::template Ref<scene::LightOptions> v) {
   a.field("pattern", v.pattern,
           of(Role::Shape).says("Pattern", "How the baked light directions are spread over the sky."));
   a.field("count", v.count,
-          range(1, 1024, "lights")
+          range(1, kMaxLights, "lights")
               .soft(6, 64)
               .says("Lights",
                     "Directions of the Fibonacci pattern. More relight more truly and trace longer; 15 is usual."));
   a.field("directions", v.directions,
-          range(0, 1024, "lights").says("Directions", "The light directions of the pattern that lists them."));
+          range(0, kMaxLights, "lights").says("Directions", "The light directions of the pattern that lists them."));
+  a.choice("rings", v.rings, v.pattern == scene::LightPattern::Rings,
+           of(Role::Shape).says("Rings of lights", "How many rings, and where they stand."));
+  a.choice("sunPath", v.sunPath, v.pattern == scene::LightPattern::SunPath,
+           of(Role::Shape).says("Path of the sun", "The place and the days."));
 }
 
 template <typename A>

@@ -4,6 +4,7 @@
 #include "base/file.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <set>
 
@@ -103,23 +104,92 @@ void checkPatch(const Project& project, Problems& out) {
   if (!patch.soil.texture.empty()) checkAsset(project, "patch.soil.texture", patch.soil.texture, out);
 }
 
-void checkLights(const Project& project, Problems& out) {
-  const scene::LightOptions& lights = project.lights;
-  const bool list = lights.pattern == scene::LightPattern::List;
-  const std::size_t count = list ? lights.directions.size() : static_cast<std::size_t>(std::max(lights.count, 0));
-  if (list && count == 0) {
-    return out.error("lights.directions", "there are no lights",
-                     "List at least one direction, or set lights.pattern to fibonacci.");
+/// Days of a month; of February in a leap year when `leap`.
+int daysOf(int month, bool leap) {
+  constexpr std::array kDays{31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+  return kDays[static_cast<std::size_t>(month - 1)] + (month == 2 && leap ? 1 : 0);
+}
+
+void checkDay(const std::string& where, int month, int day, bool leap, Problems& out) {
+  if (month < 1 || month > 12 || day < 1 || day > 31 || day <= daysOf(month, leap)) return;
+  out.error(where, "month " + std::to_string(month) + " has no day " + std::to_string(day),
+            "Give 1 to " + std::to_string(daysOf(month, leap)) + ".");
+}
+
+/// Lights of each pattern, and where a project says how many; the sun's path may have fewer, since the sun does not
+/// rise everywhere every day.
+struct LightCount {
+  std::int64_t count = 0;
+  const char* where = "lights.count";
+};
+
+LightCount countLights(const scene::LightOptions& lights) {
+  switch (lights.pattern) {
+    case scene::LightPattern::Fibonacci:
+      return {std::max(lights.count, 0), "lights.count"};
+    case scene::LightPattern::List:
+      return {static_cast<std::int64_t>(lights.directions.size()), "lights.directions"};
+    case scene::LightPattern::Rings:
+      return {std::int64_t{lights.rings.rings} * lights.rings.lightsPerRing + (lights.rings.zenith ? 1 : 0),
+              "lights.rings"};
+    case scene::LightPattern::SunPath:
+      return {static_cast<std::int64_t>(lights.sunPath.dates.size()) * lights.sunPath.positions, "lights.sunPath"};
   }
-  for (std::size_t i = 0; list && i < count; ++i) {
+  return {};
+}
+
+void checkList(const scene::LightOptions& lights, Problems& out) {
+  for (std::size_t i = 0; i < lights.directions.size(); ++i) {
     if (lights.directions[i].elevationDeg < 0.0) {
       out.error("lights.directions[" + std::to_string(i) + "].elevationDeg",
                 "the light stands at " + number(lights.directions[i].elevationDeg) + " degrees, under the horizon",
                 "Give 0 to 90 degrees.");
     }
   }
-  if (count > 0 && count < static_cast<std::size_t>(kFewLights)) {
-    out.warning(list ? "lights.directions" : "lights.count", "there are only " + std::to_string(count) + " lights",
+}
+
+void checkRings(const scene::RingOptions& rings, Problems& out) {
+  if (rings.rings > 1 && !(rings.highestDeg > rings.lowestDeg)) {
+    out.error("lights.rings.highestDeg", "the highest ring is no higher than the lowest", "Give more than lowestDeg.");
+  }
+  // On a circle round the zenith lx^2 + ly^2 is constant, so that two of the six functions of light are one.
+  if (rings.rings == 1 && !rings.zenith) {
+    out.warning("lights.rings", "a single ring does not tell how light changes with the height of the sun",
+                "Set lights.rings.zenith, or use two rings.");
+  }
+}
+
+void checkSunPath(const scene::SunPathOptions& path, Problems& out) {
+  for (std::size_t i = 0; i < path.dates.size(); ++i) {
+    checkDay("lights.sunPath.dates[" + std::to_string(i) + "].day", path.dates[i].month, path.dates[i].day, true, out);
+  }
+  // A day's path is a circle, on which the six functions of light are not independent either.
+  if (path.dates.size() == 1) {
+    out.warning("lights.sunPath.dates", "a single day does not tell how light changes across the sun's path",
+                "Add a date months away, such as the other solstice.");
+  }
+}
+
+void checkLights(const Project& project, Problems& out) {
+  const scene::LightOptions& lights = project.lights;
+  const LightCount lamps = countLights(lights);
+  if (lamps.count < 1) {
+    // The ranges of other patterns say so themselves.
+    if (lights.pattern == scene::LightPattern::List) {
+      out.error("lights.directions", "there are no lights",
+                "List at least one direction, or set lights.pattern to fibonacci.");
+    }
+    return;
+  }
+  if (lights.pattern == scene::LightPattern::List) checkList(lights, out);
+  if (lights.pattern == scene::LightPattern::Rings) checkRings(lights.rings, out);
+  if (lights.pattern == scene::LightPattern::SunPath) checkSunPath(lights.sunPath, out);
+  if (lamps.count > kMaxLights) {
+    out.error(lamps.where, "these are " + std::to_string(lamps.count) + " lights",
+              "At most " + std::to_string(kMaxLights) + " are possible.");
+  }
+  if (lamps.count < kFewLights) {
+    out.warning(lamps.where, "there are only " + std::to_string(lamps.count) + " lights",
                 "Use " + std::to_string(kFewLights) + " or more (15 is usual): relighting is a guess otherwise.");
   }
 }
@@ -252,14 +322,8 @@ void checkRest(const Project& project, Problems& out) {
               "Make the picture smaller.");
   }
   const scene::SunMoment& m = project.sun.moment;
-  if (project.sun.byMoment && m.month >= 1 && m.month <= 12) {
-    constexpr std::array kDays{31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
-    const bool leap = (m.year % 4 == 0 && m.year % 100 != 0) || m.year % 400 == 0;
-    const int days = kDays[static_cast<std::size_t>(m.month - 1)] + (m.month == 2 && leap ? 1 : 0);
-    if (m.day > days && m.day <= 31) {
-      out.error("sun.moment.day", "month " + std::to_string(m.month) + " has no day " + std::to_string(m.day),
-                "Give 1 to " + std::to_string(days) + ".");
-    }
+  if (project.sun.byMoment) {
+    checkDay("sun.moment.day", m.month, m.day, (m.year % 4 == 0 && m.year % 100 != 0) || m.year % 400 == 0, out);
   }
 }
 

@@ -27,9 +27,12 @@ constexpr auto words(PlantKind) {
        {PlantKind::Gltf, "gltf", "Mesh file", "A plant of your own, from a glTF file."}}};
 }
 constexpr auto words(scene::LightPattern) {
-  return std::array<Word<scene::LightPattern>, 2>{
+  return std::array<Word<scene::LightPattern>, 4>{
       {{scene::LightPattern::Fibonacci, "fibonacci", "Fibonacci", "Evenly over the whole sky, any number of lights."},
-       {scene::LightPattern::List, "list", "List", "Directions that you place one by one."}}};
+       {scene::LightPattern::List, "list", "List", "Directions that you place one by one."},
+       {scene::LightPattern::Rings, "rings", "Rings", "Rings at chosen heights, with one light above."},
+       {scene::LightPattern::SunPath, "sun_path", "Sun path",
+        "Where the sun passes on some dates at a latitude; elsewhere relighting is a guess."}}};
 }
 constexpr auto words(lpt::Basis) {
   return std::array<Word<lpt::Basis>, 2>{

@@ -49,13 +49,42 @@ struct View {
   bool operator==(const View&) const = default;
 };
 
-enum class LightPattern { Fibonacci, List };
+enum class LightPattern { Fibonacci, List, Rings, SunPath };
+
+/// Rings of lights at heights evenly spaced from the lowest to the highest, each ring turned by half a step against the
+/// one below.
+struct RingOptions {
+  int rings = 2;
+  int lightsPerRing = 7;
+  double lowestDeg = 20.0;   ///< elevation of the first ring, and of the only one
+  double highestDeg = 55.0;  ///< of the last ring
+  bool zenith = true;        ///< one more light straight above
+  bool operator==(const RingOptions&) const = default;
+};
+
+/// A day of any year; the sun's path differs by less than half a degree from year to year.
+struct SunDate {
+  int month = 6;
+  int day = 21;
+  bool operator==(const SunDate&) const = default;
+};
+
+/// Where the sun passes on some days: for scenes that are only ever lit by the sun of one place.
+struct SunPathOptions {
+  double latitudeDeg = 48.0;  ///< north positive
+  std::vector<SunDate> dates{{6, 21}, {3, 20}, {12, 21}};
+  int positions = 5;       ///< lights of each day, evenly spaced in time while the sun stands above lowestDeg
+  double lowestDeg = 3.0;  ///< elevation
+  bool operator==(const SunPathOptions&) const = default;
+};
 
 /// The light directions that are baked.
 struct LightOptions {
   LightPattern pattern = LightPattern::Fibonacci;
   int count = 15;                     ///< for Fibonacci
   std::vector<SunAngles> directions;  ///< for List
+  RingOptions rings;                  ///< for Rings
+  SunPathOptions sunPath;             ///< for SunPath
   bool operator==(const LightOptions&) const = default;
 };
 

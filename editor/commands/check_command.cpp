@@ -2,6 +2,7 @@
 
 #include "bake/plants.h"
 #include "bake/soil.h"
+#include "scene/lights.h"
 
 namespace sward::editor {
 namespace {
@@ -20,6 +21,10 @@ void checkAssets(const project::Project& project, std::vector<project::Problem>&
       continue;
     }
     for (const std::string& warning : model->warnings) problems.push_back({false, where, warning, ""});
+  }
+  // Where the sun never rises, a path of the sun has no lights.
+  if (const auto lights = scene::lightDirections(project.lights); !lights.ok()) {
+    problems.push_back({true, lights.error().where, lights.error().what, lights.error().remedy});
   }
   if (project.patch.soil.texture.empty()) return;
   if (const auto soil = bake::soilColours(project, 8); !soil.ok()) add("patch.soil.texture", soil.error());

@@ -13,14 +13,6 @@ fs::path absolutePath(const fs::path& file) {
   return code ? file : absolute.lexically_normal();
 }
 
-/// Where a write to `file` must go: rename(2) would put a file in the place of a symbolic link.
-fs::path writeTarget(const fs::path& file) {
-  std::error_code code;
-  if (!fs::is_symlink(file, code)) return file;
-  const fs::path target = fs::weakly_canonical(file, code);
-  return code ? file : target;
-}
-
 }  // namespace
 
 Result<Document> openDocument(const fs::path& file) {
@@ -46,7 +38,7 @@ Result<void> saveDocumentAs(Document& document, const fs::path& file) {
   const fs::path absolute = absolutePath(file);
   project::Project there = document.project();
   if (there.folder != absolute.parent_path()) project::AssetRebase(absolute.parent_path()).apply(there);
-  SWARD_TRY(project::save(there, writeTarget(absolute)));
+  SWARD_TRY(project::save(there, absolute));
   document.markSaved(absolute);
   return {};
 }

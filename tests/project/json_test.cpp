@@ -36,6 +36,8 @@ Project fullProject() {
   project.patch.plants[0].grass.colourAlong = base::Curve::fromPoints({{0.0, 0.1}, {1.0, 0.8}}).value();
   project.patch.soil.texture = "soil.png";
   project.lights.directions = {{10.0, 20.0}, {30.0, 40.0}};
+  project.lights.rings.rings = 3;  // not the defaults, so that unused ones are written too
+  project.lights.sunPath.positions = 7;
   project.sun.byMoment = true;
   project.sun.angles.azimuthDeg = 12.5;
   return project;

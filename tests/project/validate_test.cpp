@@ -88,6 +88,18 @@ INSTANTIATE_TEST_SUITE_P(
              "lights.directions"},
         Edge{"lights.pattern=list;lights.directions=[{\"elevationDeg\": 90}]",
              "lights.pattern=list;lights.directions=[{\"elevationDeg\": -1}]", "lights.directions[0].elevationDeg"},
+        Edge{"lights.pattern=rings", "lights.pattern=rings;lights.rings.rings=0", "lights.rings.rings"},
+        Edge{"lights.pattern=rings;lights.rings.rings=16;lights.rings.lightsPerRing=63",
+             "lights.pattern=rings;lights.rings.rings=16;lights.rings.lightsPerRing=64", "lights.rings"},
+        Edge{"lights.pattern=rings;lights.rings.rings=1;lights.rings.highestDeg=20",
+             "lights.pattern=rings;lights.rings.highestDeg=20", "lights.rings.highestDeg"},
+        Edge{"lights.rings.lowestDeg=-1", "lights.pattern=rings;lights.rings.lowestDeg=-1", "lights.rings.lowestDeg"},
+        Edge{"lights.pattern=sun_path", "lights.pattern=sun_path;lights.sunPath.dates=[]", "lights.sunPath.dates"},
+        Edge{"lights.pattern=sun_path;lights.sunPath.dates=[{\"month\": 2, \"day\": 29}, {\"month\": 9}]",
+             "lights.pattern=sun_path;lights.sunPath.dates=[{\"month\": 2, \"day\": 30}, {\"month\": 9}]",
+             "lights.sunPath.dates[0].day"},
+        Edge{"lights.pattern=sun_path;lights.sunPath.latitudeDeg=-90",
+             "lights.pattern=sun_path;lights.sunPath.latitudeDeg=-91", "lights.sunPath.latitudeDeg"},
         Edge{"patch.plants[0].grass.heightM=0.002", "patch.plants[0].grass.heightM=0", "patch.plants[0].grass.heightM"},
         Edge{"patch.plants[0].grass.heightM=20", "patch.plants[0].grass.heightM=20.1", "patch.plants[0].grass.heightM"},
         Edge{"patch.plants[0].flower.heightM=0", "patch.plants[4].flower.heightM=0", "patch.plants[4].flower.heightM"},
@@ -180,6 +192,16 @@ TEST(Validate, FewLightsAndNoViewsAreWarnings) {
   EXPECT_FALSE(problems[0].fatal);
   EXPECT_FALSE(problems[1].fatal);
   EXPECT_TRUE(requireValid(project).ok());
+}
+
+TEST(Validate, LightsOnOneCircleAreAWarning) {
+  const auto warnings = [](const std::string& overrides) { return describe(validate(with(overrides))); };
+  const std::string ring = "lights.pattern=rings;lights.rings.rings=1;lights.rings.lightsPerRing=15";
+  EXPECT_EQ(warnings(ring), "");
+  EXPECT_THAT(warnings(ring + ";lights.rings.zenith=false"), HasSubstr("lights.rings: a single ring"));
+  const std::string days = "lights.pattern=sun_path;lights.sunPath.positions=12;lights.sunPath.dates=";
+  EXPECT_EQ(warnings(days + "[{\"month\": 6}, {\"month\": 12}]"), "");
+  EXPECT_THAT(warnings(days + "[{\"month\": 6}]"), HasSubstr("lights.sunPath.dates: a single day"));
 }
 
 TEST(Validate, AssetsMustBeThere) {

@@ -44,10 +44,143 @@ TEST(Lights, ErrorsSayWhich) {
   LightOptions options;
   options.count = 0;
   EXPECT_FALSE(lightDirections(options).ok());
-  options = {LightPattern::List, 15, {{10.0, 20.0}, {0.0, -5.0}}};
+  options.pattern = LightPattern::List;
+  options.directions = {{10.0, 20.0}, {0.0, -5.0}};
   const auto below = lightDirections(options);
   ASSERT_FALSE(below.ok());
   EXPECT_NE(below.error().where.find("[1]"), std::string::npos);
+}
+
+TEST(Lights, RingsStandEvenlyAndStaggered) {
+  RingOptions options;
+  options.rings = 3;
+  options.lightsPerRing = 8;
+  options.lowestDeg = 10.0;
+  options.highestDeg = 70.0;
+  const auto lights = ringLights(options);
+  ASSERT_EQ(lights.size(), 25u);
+  EXPECT_EQ(lights.back(), glm::dvec3(0, 0, 1));
+  for (std::size_t i = 0; i < 24; ++i) {
+    EXPECT_NEAR(glm::length(lights[i]), 1.0, 1e-12);
+    const SunAngles angles = anglesFromDirection(lights[i]);
+    EXPECT_NEAR(angles.elevationDeg, 10.0 + 30.0 * static_cast<double>(i / 8), 1e-9);
+    const double expected = 45.0 * static_cast<double>(i % 8) + (i / 8 == 1 ? 22.5 : 0.0);
+    EXPECT_NEAR(std::remainder(angles.azimuthDeg - expected, 360.0), 0.0, 1e-9) << i;
+  }
+  options.rings = 1;
+  options.zenith = false;
+  const auto single = ringLights(options);
+  ASSERT_EQ(single.size(), 8u);
+  EXPECT_NEAR(single[3].z, std::sin(10.0 * kPi / 180.0), 1e-12);
+}
+
+/// Declination on a day and the hour angle of a light, from the light itself: the pole stands at the latitude.
+double declinationDeg(const glm::dvec3& light, double latitudeDeg) {
+  const double latitude = latitudeDeg * kPi / 180.0;
+  return std::asin(glm::dot(light, {0.0, std::cos(latitude), std::sin(latitude)})) * 180.0 / kPi;
+}
+double hourAngleDeg(const glm::dvec3& light, double latitudeDeg) {
+  const double latitude = latitudeDeg * kPi / 180.0;
+  const double south = glm::dot(light, {0.0, -std::sin(latitude), std::cos(latitude)});
+  return std::atan2(-light.x, south) * 180.0 / kPi;  // the sun moves west
+}
+
+TEST(Lights, SunPathFollowsTheSunOfADay) {
+  struct Day {
+    SunDate date;
+    double declination;
+  };
+  // Declinations of the solstices are the obliquity; 16 April has some ten degrees.
+  for (const Day& day : {Day{{6, 21}, 23.44}, Day{{12, 21}, -23.44}, Day{{4, 16}, 10.2}}) {
+    for (const double latitude : {48.0, 0.0, -35.0, 60.0}) {
+      SunPathOptions options;
+      options.latitudeDeg = latitude;
+      options.dates = {day.date};
+      options.positions = 7;
+      options.lowestDeg = 5.0;
+      const auto lights = sunPathLights(options);
+      ASSERT_EQ(lights.size(), 7u);
+      for (const glm::dvec3& light : lights) {
+        EXPECT_NEAR(declinationDeg(light, latitude), day.declination, 0.3);
+        EXPECT_GE(light.z, std::sin(5.0 * kPi / 180.0) - 1e-9);
+      }
+      // The sunset equation, for an elevation h: cos H = (sin h - sin phi sin delta) / (cos phi cos delta).
+      const double phi = latitude * kPi / 180.0, delta = declinationDeg(lights[3], latitude) * kPi / 180.0;
+      const double half = std::acos((std::sin(5.0 * kPi / 180.0) - std::sin(phi) * std::sin(delta)) /
+                                    (std::cos(phi) * std::cos(delta))) *
+                          180.0 / kPi;
+      for (std::size_t i = 0; i < 7; ++i) {
+        const double expected = half * (2.0 * (static_cast<double>(i) + 0.5) / 7.0 - 1.0);
+        EXPECT_NEAR(hourAngleDeg(lights[i], latitude), expected, 0.4) << latitude << " " << i;
+      }
+      // Morning is in the east.
+      EXPECT_GT(lights.front().x, 0.0);
+      EXPECT_LT(lights.back().x, 0.0);
+    }
+  }
+}
+
+TEST(Lights, SunPathKnowsPolarDayAndNight) {
+  SunPathOptions options;
+  options.latitudeDeg = 80.0;
+  options.dates = {{6, 21}, {12, 21}};
+  options.positions = 8;
+  const auto lights = sunPathLights(options);
+  ASSERT_EQ(lights.size(), 8u);  // of June alone, all round the clock
+  for (std::size_t i = 0; i < 8; ++i) {
+    const double step = hourAngleDeg(lights[(i + 1) % 8], 80.0) - hourAngleDeg(lights[i], 80.0);
+    EXPECT_NEAR(std::remainder(step - 45.0, 360.0), 0.0, 0.1);
+  }
+  LightOptions night;
+  night.pattern = LightPattern::SunPath;
+  night.sunPath = options;
+  night.sunPath.dates = {{12, 21}};
+  const auto none = lightDirections(night);
+  ASSERT_FALSE(none.ok());
+  EXPECT_EQ(none.error().where, "lights.sunPath");
+  EXPECT_NE(none.error().what.find("never stands higher"), std::string::npos);
+  for (const double pole : {90.0, -90.0}) {
+    options.latitudeDeg = pole;
+    EXPECT_EQ(sunPathLights(options).size(), 8u);
+  }
+}
+
+TEST(Lights, SunPathLeavesOutDatesThatDoNotExist) {
+  SunPathOptions options;
+  options.dates = {{2, 30}, {0, 1}, {13, 1}, {1, 0}, {2, 29}};
+  EXPECT_EQ(sunPathLights(options).size(), static_cast<std::size_t>(options.positions));
+  options.dates = {{6, 21}};
+  options.positions = 0;
+  EXPECT_TRUE(sunPathLights(options).empty());
+}
+
+TEST(Lights, EveryPatternGivesUnitVectorsAboveTheHorizon) {
+  LightOptions options;
+  options.directions = {{0.0, 0.0}, {90.0, 90.0}};
+  options.sunPath.lowestDeg = 0.0;
+  for (const LightPattern pattern :
+       {LightPattern::Fibonacci, LightPattern::List, LightPattern::Rings, LightPattern::SunPath}) {
+    options.pattern = pattern;
+    const auto lights = lightDirections(options);
+    ASSERT_TRUE(lights.ok());
+    EXPECT_EQ(lights->size(), pattern == LightPattern::List ? 2u : 15u);
+    for (const glm::dvec3& light : *lights) {
+      EXPECT_NEAR(glm::length(light), 1.0, 1e-12);
+      EXPECT_GE(light.z, 0.0);
+    }
+  }
+  options.pattern = LightPattern::Rings;
+  options.rings.lowestDeg = -5.0;
+  EXPECT_FALSE(lightDirections(options).ok());
+  options.rings.lowestDeg = std::nan("");
+  EXPECT_FALSE(lightDirections(options).ok());
+  options.rings = {};
+  options.rings.rings = 0;
+  options.rings.zenith = false;
+  EXPECT_FALSE(lightDirections(options).ok());
+  options.pattern = LightPattern::SunPath;
+  options.sunPath.latitudeDeg = 91.0;
+  EXPECT_FALSE(lightDirections(options).ok());
 }
 
 TEST(Sun, AgreesWithPublishedPositions) {

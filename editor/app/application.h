@@ -153,6 +153,7 @@ class Application : public EditSink {
   Autosave m_autosave;
   std::uint64_t m_autosavedRevision = 0;  ///< of the state whose copy lies in the recovery folder
   FileWatch m_watch;
+  std::uint64_t m_watchedRevision = 0;
   std::unique_ptr<LiveLink> m_live;
   ActionTable m_actions;
   UiState m_ui;

@@ -83,13 +83,13 @@ void Application::showDocument(Document document) {
   m_ui.activeCurve.clear();
   m_ui.selectedLight.reset();
   if (!m_document->file().empty()) m_preferences.addRecent(m_document->file());
-  m_watch.watch(*m_document);
+  m_watch.watchProject(m_document->file(), m_document->snapshot());
   showMissingAssets();
 }
 
 void Application::showMissingAssets() {
   std::vector<std::string> wheres, files;
-  for (const project::MissingAsset& asset : project::missingAssets(m_document->project())) {
+  for (const project::AssetReference& asset : project::missingAssets(m_document->project())) {
     wheres.push_back(asset.where);
     files.push_back(asset.file.string());
   }
@@ -143,7 +143,7 @@ void Application::saveAs(const std::function<void()>& then) {
 void Application::saveDone(const std::function<void()>& then) {
   m_autosave.clear();
   m_preferences.addRecent(m_document->file());
-  m_watch.watch(*m_document);
+  m_watch.watchProject(m_document->file(), m_document->snapshot());
   notice("Saved " + m_document->file().filename().string());
   if (then) then();
 }
@@ -152,7 +152,7 @@ void Application::revert() {
   m_document->closeStep();
   const auto reverted = revertDocument(*m_document);
   if (!reverted.ok()) return m_dialogs.showError("The file cannot be read", reverted.error());
-  m_watch.watch(*m_document);
+  m_watch.watchProject(m_document->file(), m_document->snapshot());
   afterHistory();
 }
 
@@ -237,19 +237,26 @@ void Application::chooseFile(FileDialogOptions options, std::function<void(const
 }
 
 void Application::watchFiles() {
-  for (const FileChange& change : m_watch.poll()) {
-    if (!change.isProject) {
-      notice("\"" + change.file.filename().string() + "\" changed on disk: baked again");
-      m_live->forgetAssets();
-      continue;
-    }
-    if (change.gone) {
-      notice("The project's file was removed or renamed by another program; save to write it again");
+  if (m_watchedRevision != m_document->revision()) {
+    m_watchedRevision = m_document->revision();
+    std::vector<fs::path> files;
+    for (const project::AssetReference& asset : project::assetReferences(m_document->project()))
+      files.push_back(asset.file);
+    m_watch.watchAssets(files);
+  }
+  for (const FileEvent& event : m_watch.poll(std::chrono::steady_clock::now())) {
+    const std::string name = event.file.filename().string();
+    if (!event.isProject) {
+      const bool gone = event.what == FileEvent::What::Removed;
+      notice("\"" + name + (gone ? "\" is gone" : "\" changed on disk: baked again"));
+      m_live->rebake();
+    } else if (event.what == FileEvent::What::Removed) {
+      notice("The project's file was removed by another program; save to write it again");
     } else if (m_document->modified()) {
-      m_dialogs.askReload(change.file.filename().string(), [this] { revert(); });
+      m_dialogs.askReload(name, [this] { revert(); });
     } else {
       revert();
-      notice("Loaded anew: another program changed the project's file");
+      notice("Loaded anew: another program changed \"" + name + "\"");
     }
   }
 }

@@ -1,7 +1,5 @@
 #include "app/live_link.h"
 
-#include "project/value_hash.h"
-
 #include <algorithm>
 #include <chrono>
 
@@ -31,11 +29,21 @@ render::GroundMethod methodOf(CompareState::Other other, render::GroundMethod ow
   return own;
 }
 
+BakeService::Options bakeOptions(const LiveLink::Options& options) {
+  BakeService::Options bake;
+  bake.cacheFolder = options.cacheFolder;
+  bake.cacheLimitBytes = options.cacheLimitBytes;
+  bake.threads = options.threads;
+  bake.onChanged = options.wake;
+  return bake;
+}
+
 }  // namespace
 
 LiveLink::LiveLink(const UiGl& gl, Options options)
     : m_gl(gl),
-      m_bakes({options.cacheFolder, options.cacheLimitBytes, options.threads, options.wake}),
+      m_bakeOptions(bakeOptions(options)),
+      m_bakes(m_bakeOptions),
       m_views({options.device, options.wake}),
       m_thumbnails({options.wake}) {
   m_state.thumbnails = &m_thumbnailTextures;
@@ -87,6 +95,7 @@ bool LiveLink::takePicture() {
   m_state.samples = picture->samples;
   m_state.pictureFinal = picture->final && picture->id == m_requestId;
   m_state.drawMs = picture->drawMs;
+  ++m_pictures;
   m_pictureTimes.push_back(now());
   if (m_pictureTimes.size() > kPictureTimes) m_pictureTimes.pop_front();
   const double span = m_pictureTimes.back() - m_pictureTimes.front();
@@ -116,7 +125,8 @@ void LiveLink::update(const Document& document, const UiState& ui, int width, in
   m_state.stale = m_bakes.status().running || m_groundRevision < m_revision;
   if (!m_state.ground || width < 1 || height < 1) return;
   const bool moved = ui.inputActive || seconds - ui.lastMotion < kSettleSeconds;
-  Wanted wanted{document.snapshot(), m_state.ground, ui.camera, width, height, ui.mode, ui.compare, moved};
+  Wanted wanted{document.snapshot(), m_state.ground, ui.camera, width,         height,
+                ui.mode,             ui.compare,     moved,     m_otherGround};
   if (m_wanted == wanted) return;
   m_settleAt = moved ? std::optional(seconds + kSettleSeconds) : std::nullopt;
   requestPicture(wanted);
@@ -139,6 +149,38 @@ void LiveLink::updateOther(const Document& document, const CompareState& compare
   m_otherRevision = document.revision();
   m_otherOther = compare.other;
   m_otherGround.reset();
+}
+
+void LiveLink::requestPicture(const Wanted& wanted) {
+  ViewRequest request;
+  request.project = wanted.project;
+  request.ground = wanted.ground;
+  request.view = wanted.view;
+  request.width = wanted.width;
+  request.height = wanted.height;
+  request.mode = wanted.mode;
+  request.moving = wanted.moving;
+  request.id = ++m_requestId;
+  if (wanted.compare.on) {
+    Comparison comparison;
+    comparison.show = wanted.compare.show;
+    comparison.splitAt = wanted.compare.splitAt;
+    comparison.method = methodOf(wanted.compare.other, wanted.project->render.method);
+    comparison.ground = wanted.other;
+    comparison.differenceGain = wanted.compare.gain;
+    request.comparison = std::move(comparison);
+  }
+  m_state.pictureFinal = false;
+  m_views.request(std::move(request));
+}
+
+bool LiveLink::settled() const {
+  return m_state.ground && m_state.quality == Quality::Full && m_groundRevision == m_revision &&
+         !m_state.bake.running && m_state.pictureFinal && !m_settleAt;
+}
+
+void LiveLink::cancelBake() {
+  m_bakes.cancel();
 }
 
 }  // namespace sward::editor

@@ -43,6 +43,8 @@ class LiveLink {
   /// Everything of the newest request is on screen: ground at full quality, all samples.
   bool settled() const;
   void cancelBake();
+  /// An asset changed on the disk: asks for the same project again.
+  void rebake() { m_revision = 0; }
   /// Pictures that came so far.
   std::uint64_t pictures() const { return m_pictures; }
 
@@ -66,6 +68,7 @@ class LiveLink {
   void updateOther(const Document& document, const CompareState& compare);
 
   const UiGl& m_gl;
+  BakeService::Options m_bakeOptions;
   BakeService m_bakes;
   ViewService m_views;
   ThumbnailService m_thumbnails;
@@ -79,7 +82,6 @@ class LiveLink {
   std::uint64_t m_pictures = 0;
   bool m_groundChanged = false;
 
-  BakeService::Options m_bakeOptions;
   std::unique_ptr<BakeService> m_otherBakes;  ///< of the fit that the viewport compares with, once it is asked for
   std::shared_ptr<const bake::GroundBake> m_otherGround;
   std::uint64_t m_otherRevision = 0;

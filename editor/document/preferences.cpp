@@ -94,11 +94,11 @@ void readWindow(Values& values, WindowPlace& window, std::vector<std::string>& m
   inner.flag("maximised", window.maximised);
 }
 
-void readTheme(Values& values, Theme& theme) {
-  std::string word = theme == Theme::Dark ? "dark" : "light";
+void readTheme(Values& values, ThemeChoice& theme) {
+  std::string word = theme == ThemeChoice::Dark ? "dark" : "light";
   values.text("theme", word);
   if (word != "dark" && word != "light") return values.wrong("theme", "\"dark\" or \"light\"");
-  theme = word == "dark" ? Theme::Dark : Theme::Light;
+  theme = word == "dark" ? ThemeChoice::Dark : ThemeChoice::Light;
 }
 
 void readPanels(Values& values, std::map<std::string, double>& sizes) {
@@ -140,7 +140,7 @@ Preferences fromJson(Json& json, std::vector<std::string>& messages) {
 Json toJson(const Preferences& p) {
   Json json;
   json["uiScale"] = p.uiScale;
-  json["theme"] = p.theme == Theme::Dark ? "dark" : "light";
+  json["theme"] = p.theme == ThemeChoice::Dark ? "dark" : "light";
   json["cacheLimitBytes"] = p.cacheLimitBytes;
   json["device"] = p.device;
   json["showHints"] = p.showHints;

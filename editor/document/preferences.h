@@ -10,7 +10,7 @@
 
 namespace sward::editor {
 
-enum class Theme { Dark, Light };
+enum class ThemeChoice { Dark, Light };
 
 struct WindowPlace {
   int x = 0, y = 0;  ///< of the top left corner, in screen units; used when `known`
@@ -25,7 +25,7 @@ struct Preferences {
   static constexpr std::size_t kMaxRecent = 12;
 
   double uiScale = 0.0;  ///< 0: from the screen; else 0.5 to 4
-  Theme theme = Theme::Dark;
+  ThemeChoice theme = ThemeChoice::Dark;
   std::uint64_t cacheLimitBytes = std::uint64_t{4} << 30;  ///< of baked results on the disk; 64 MiB to 1 TiB
   std::string device;                                      ///< renderer to draw with; empty: the best one found
   bool showHints = true;

@@ -29,7 +29,7 @@ void write(const fs::path& file, const std::string& text) {
 Preferences unusual() {
   Preferences p;
   p.uiScale = 1.75;
-  p.theme = Theme::Light;
+  p.theme = ThemeChoice::Light;
   p.cacheLimitBytes = 123456789012;
   p.device = "software";
   p.showHints = false;

@@ -23,6 +23,5 @@ inline constexpr int kFewLights = 6;
 /// Most entries of the lists of a file; the schema's ranges.
 inline constexpr std::size_t kMaxPlantKinds = 64;
 inline constexpr std::size_t kMaxViews = 1000;
-inline constexpr std::size_t kMaxLights = 1024;
 
 }  // namespace sward::project

@@ -163,7 +163,7 @@ bool updateView(Project& project, std::size_t index, const View& camera) {
 }
 
 bool convertToList(Project& project, const std::vector<SunAngles>& directions) {
-  if (directions.empty() || directions.size() > project::kMaxLights) return false;
+  if (directions.empty() || directions.size() > std::size_t{project::kMaxLights}) return false;
   if (!std::all_of(directions.begin(), directions.end(), isFinite)) return false;
   project.lights.pattern = scene::LightPattern::List;
   project.lights.directions.clear();
@@ -173,13 +173,13 @@ bool convertToList(Project& project, const std::vector<SunAngles>& directions) {
 
 void usePattern(Project& project, scene::LightPattern pattern, int count) {
   project.lights.pattern = pattern;
-  project.lights.count = std::clamp(count, 1, static_cast<int>(project::kMaxLights));
+  project.lights.count = std::clamp(count, 1, project::kMaxLights);
 }
 
 std::optional<std::size_t> addLight(Project& project, const SunAngles& angles) {
   scene::LightOptions& lights = project.lights;
   if (lights.pattern != scene::LightPattern::List || !isFinite(angles)) return std::nullopt;
-  if (lights.directions.size() >= project::kMaxLights) return std::nullopt;
+  if (lights.directions.size() >= std::size_t{project::kMaxLights}) return std::nullopt;
   lights.directions.push_back(inRange(angles));
   return lights.directions.size() - 1;
 }

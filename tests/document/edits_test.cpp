@@ -179,7 +179,7 @@ TEST(LightEdits, APatternBecomesAListThatCanBeEdited) {
   EXPECT_FALSE(removeLight(project, 0)) << "the last one stays";
   EXPECT_TRUE(project::requireValid(project).ok());
   usePattern(project, scene::LightPattern::Fibonacci, 5000);
-  EXPECT_EQ(project.lights.count, static_cast<int>(project::kMaxLights));
+  EXPECT_EQ(project.lights.count, project::kMaxLights);
   EXPECT_EQ(project.lights.directions.size(), 1u);
 }
 

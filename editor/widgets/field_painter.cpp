@@ -2,6 +2,7 @@
 
 #include "widgets/icons.h"
 #include "widgets/item_log.h"
+#include "widgets/parts.h"
 #include "widgets/text.h"
 #include "widgets/theme.h"
 
@@ -63,7 +64,7 @@ bool FieldPainter::foldTitle(const std::string& title, const std::string& path, 
   const float height = ImGui::GetFrameHeight();
   const float left = m_left + px(kIndent) * static_cast<float>(m_depth);
   ImGui::SetCursorScreenPos(ImVec2(left, ImGui::GetCursorScreenPos().y));
-  const float room = on != nullptr ? height + px(6) : 0.0f;
+  const float room = on != nullptr ? px(16) + px(6) : 0.0f;
   bool* open = ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("open"), true);
   const bool pressed =
       ImGui::InvisibleButton("title", ImVec2(std::max(px(20), m_left + m_width - left - room), height));
@@ -84,7 +85,7 @@ bool FieldPainter::foldTitle(const std::string& title, const std::string& path, 
   }
   if (on != nullptr) {
     ImGui::SameLine(0.0f, px(6));
-    ImGui::Checkbox("##on", on);
+    tickBox("on", *on);
     logItem("enable:", path);
   }
   ImGui::PopID();
@@ -201,7 +202,7 @@ RowMenu FieldPainter::endRow(FieldRow& row) {
 }
 
 void FieldPainter::switchOptional(FieldRow& row) {
-  if (ImGui::Checkbox("##on", &row.enabled)) report(row, {true, true});
+  if (tickBox("on", row.enabled)) report(row, {true, true});
   logItem("enable:", row.path);
   ImGui::SameLine(0.0f, px(6));
 }

@@ -1,6 +1,7 @@
 #include "widgets/field_painter.h"
 #include "widgets/icons.h"
 #include "widgets/item_log.h"
+#include "widgets/parts.h"
 #include "widgets/text.h"
 #include "widgets/theme.h"
 
@@ -83,6 +84,7 @@ EditState editTriple(glm::dvec3& value, const NumberStyle& base, const std::arra
   const float each = std::floor((width - 2.0f * gap) / 3.0f);
   for (int i = 0; i < 3; ++i) {
     NumberStyle style = base;
+    style.bar = false;
     style.caption = captions[static_cast<std::size_t>(i)];
     style.faulty = base.faulty && !(value[i] >= base.low && value[i] <= base.high);
     if (i > 0) ImGui::SameLine(0.0f, gap);
@@ -145,30 +147,29 @@ void FieldPainter::edit(FieldRow& row, int& value, int fallback) {
 
 void FieldPainter::edit(FieldRow& row, std::uint64_t& value, std::uint64_t fallback) {
   m_default = valueText(fallback);
-  const float button = ImGui::GetFrameHeight();
+  const float button = ImGui::GetFrameHeight() + px(4);
   std::string text = valueText(value);
   if (commitText("##value", text, widgetWidth() - button - px(4)) && readValue(text, value)) report(row, {true, true});
   logItem("field:", row.path);
   ImGui::SameLine(0.0f, px(4));
-  if (ImGui::Button(icon::kDice, ImVec2(button, button))) {
+  if (iconButton("dice", icon::kDice, "Another seed")) {
     // Short numbers are easier to tell and to type; the step visits all of them (it has no factor in common with 9973).
     value = (value + 6151) % 9973 + 1;
     report(row, {true, true});
   }
   logItem("dice:", row.path);
-  hoverText("Another seed");
 }
 
 void FieldPainter::edit(FieldRow& row, bool& value, bool fallback) {
   m_default = fallback ? "on" : "off";
-  if (ImGui::Checkbox("##value", &value)) report(row, {true, true});
+  if (tickBox("value", value)) report(row, {true, true});
   logItem("field:", row.path);
 }
 
 void FieldPainter::edit(FieldRow& row, std::string& value, const std::string& fallback) {
   m_default = fallback;
   const bool file = !row.look.files.empty();
-  const float button = file ? ImGui::GetFrameHeight() + px(4) : 0.0f;
+  const float button = file ? ImGui::GetFrameHeight() + px(8) : 0.0f;
   const bool wrong = !row.problem.empty();
   if (wrong) {
     ImGui::PushStyleColor(ImGuiCol_Border, theme().colours.error);
@@ -182,12 +183,11 @@ void FieldPainter::edit(FieldRow& row, std::string& value, const std::string& fa
   }
   if (!file) return;
   ImGui::SameLine(0.0f, px(4));
-  if (ImGui::Button(icon::kFolder, ImVec2(ImGui::GetFrameHeight(), ImGui::GetFrameHeight()))) {
+  if (iconButton("browse", icon::kFolder, "Choose a file")) {
     m_events.browse = row.path;
     m_events.files = row.look.files;
   }
   logItem("browse:", row.path);
-  hoverText("Choose a file");
 }
 
 void FieldPainter::edit(FieldRow& row, glm::dvec3& value, const glm::dvec3& fallback) {

@@ -127,7 +127,7 @@ void drawField(const ImRect& box, ImGuiID id, double value, const NumberStyle& s
                      : hovered ? c.fieldHover
                                : c.field,
                      true, look.FrameRounding);
-  if (hasSoftRange(style) && !style.faulty) {
+  if (style.bar && hasSoftRange(style) && !style.faulty) {
     const double from = style.softLow < 0.0 && style.softHigh > 0.0 ? fractionOf(0.0, style) : 0.0;
     const auto [a, b] = std::minmax({from, fractionOf(value, style)});
     const float inset = look.FrameBorderSize;

@@ -25,6 +25,7 @@ struct NumberStyle {
   double softLow = -std::numeric_limits<double>::max();  ///< what the bar spans and a drag across the field covers;
   double softHigh = std::numeric_limits<double>::max();  ///< extremes mean that there is no such range
   bool logarithmic = false;                              ///< the bar and drags run over decades; softLow > 0 then
+  bool bar = true;                                       ///< shows where the value stands in the soft range
   bool whole = false;                                    ///< integers only
   bool faulty = false;                                   ///< drawn as an error: the caller says why
   std::string_view unit;                                 ///< the schema's unit of the stored value

@@ -36,8 +36,9 @@ void textEllipsis(ImVec2 at, float right, ImU32 colour, std::string_view text) {
   const char* end = begin + text.size();
   const ImVec2 size = ImGui::CalcTextSize(begin, end);
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  ImGui::RenderTextEllipsis(ImGui::GetWindowDrawList(), at, ImVec2(right, at.y + size.y), right, right, begin, end,
-                            &size);
+  // Descenders of some fonts reach below the line.
+  const float bottom = at.y + size.y * 1.25f;
+  ImGui::RenderTextEllipsis(ImGui::GetWindowDrawList(), at, ImVec2(right, bottom), right, right, begin, end, &size);
   ImGui::PopStyleColor();
 }
 

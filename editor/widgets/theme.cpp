@@ -228,10 +228,10 @@ std::vector<std::string> loadFonts(ImFontAtlas& atlas, float scale, const FontFi
   atlas.Clear();
   atlas.Flags |= ImFontAtlasFlags_NoPowerOfTwoHeight;
   Fonts& fonts = current().fonts;
-  fonts.body = addFont(atlas, files.regular, std::round(15.0f * s), files);
-  fonts.strong = addFont(atlas, files.semiBold, std::round(15.0f * s), files);
-  fonts.small = addFont(atlas, files.regular, std::round(12.5f * s), files);
-  fonts.heading = addFont(atlas, files.semiBold, std::round(20.0f * s), files);
+  fonts.body = addFont(atlas, files.regular, std::round(16.0f * s), files);
+  fonts.strong = addFont(atlas, files.semiBold, std::round(16.0f * s), files);
+  fonts.small = addFont(atlas, files.regular, std::round(13.5f * s), files);
+  fonts.heading = addFont(atlas, files.semiBold, std::round(21.0f * s), files);
   return missing;
 }
 

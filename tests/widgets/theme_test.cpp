@@ -45,13 +45,13 @@ TEST(Theme, FontsHoldWhatTheInterfaceWrites) {
 
 TEST(Theme, FontsAreOfTheScale) {
   Harness one(500, 900, ThemeKind::Dark, 1.0f);
-  EXPECT_FLOAT_EQ(theme().fonts.body->FontSize, 15.0f);
+  EXPECT_FLOAT_EQ(theme().fonts.body->FontSize, 16.0f);
   Harness three(500, 900, ThemeKind::Dark, 3.0f);
-  EXPECT_FLOAT_EQ(theme().fonts.body->FontSize, 45.0f);
+  EXPECT_FLOAT_EQ(theme().fonts.body->FontSize, 48.0f);
   EXPECT_FLOAT_EQ(px(10), 30.0f);
   ImFontAtlas atlas;
   loadFonts(atlas, 100.0f);
-  EXPECT_FLOAT_EQ(atlas.ConfigData[0].SizePixels, 45.0f) << "a scale beyond 3 is held";
+  EXPECT_FLOAT_EQ(atlas.ConfigData[0].SizePixels, 48.0f) << "a scale beyond 3 is held";
 }
 
 TEST(Theme, MissingFontsAreNamedAndReplaced) {

@@ -1,5 +1,6 @@
 // Draws every widget in both themes at two scales into PNG files, to be looked at: widget_gallery FOLDER.
 
+#include "widgets/curve_editor.h"
 #include "widgets/fields.h"
 #include "widgets/harness.h"
 
@@ -47,6 +48,34 @@ void drawPlant() {
   drawFields("patch.soil", soil, project::Soil{});
 }
 
+/// A curve editor with three curves, in the sizes that it is used at.
+void drawCurves() {
+  static base::Curve width = base::Curve::fromPoints({{0, 0.3}, {0.22, 0.85}, {0.55, 0.7}, {1, 0.04}}).value();
+  static base::Curve red = base::Curve::fromPoints({{0, 0.12}, {0.6, 0.3}, {1, 0.62}}).value();
+  static base::Curve green = base::Curve::fromPoints({{0, 0.2}, {0.5, 0.6}, {1, 0.5}}).value();
+  static base::Curve none;
+  static base::Curve taper = base::Curve::fromPoints({{0, 0.6}, {0.3, 1}, {0.7, 0.7}, {1, 0}}).value();
+  static CurveEditor large, small, wide, empty;
+  std::vector<CurveLayer> layers{{.name = "Width", .curve = &width, .colour = 0},
+                                 {.name = "Red", .curve = &red, .colour = 0},
+                                 {.name = "Green", .curve = &green, .colour = 0, .visible = true, .locked = true}};
+  CurveAxes axes;
+  axes.xLabel = "Along the blade";
+  axes.yLabel = "Relative width";
+  const std::vector<CurvePreset> presets{{"Taper", taper}};
+  const float s = theme().scale;
+  wide.draw("wide", layers, axes, ImVec2(1180 * s, 300 * s), presets);
+  ImGui::Dummy(ImVec2(0, px(8)));
+  large.draw("large", layers, axes, ImVec2(560 * s, 260 * s), presets);
+  ImGui::SameLine(0, px(20));
+  ImGui::BeginGroup();
+  small.draw("small", std::span(layers.data(), 1), axes, ImVec2(300 * s, 120 * s), presets);
+  std::vector<CurveLayer> builtIn{{.name = "Profile", .curve = &none, .colour = 0}};
+  builtIn[0].builtIn = &taper;
+  empty.draw("empty", builtIn, axes, ImVec2(300 * s, 120 * s), presets);
+  ImGui::EndGroup();
+}
+
 void writePage(const std::string& folder, const char* name, float w, float h, ThemeKind kind, float scale,
                const std::function<void()>& draw, const std::function<void(Harness&)>& drive = {}) {
   Harness ui(w * scale, h * scale, kind, scale);
@@ -64,6 +93,11 @@ void writeAll(const std::string& folder) {
   for (const ThemeKind kind : {ThemeKind::Dark, ThemeKind::Light}) {
     for (const float scale : {1.0f, 2.0f}) {
       writePage(folder, "grass", 360, 820, kind, scale, drawGrass);
+      writePage(folder, "curves", 1200, 600, kind, scale, drawCurves, [](Harness& ui) {
+        ui.clickAt(ui.at("curve:wide:point:1"));
+        const ImVec2 p = ui.at("curve:wide:point:2");
+        ui.moveTo(ImVec2(p.x + 90, p.y));
+      });
       writePage(folder, "plant", 360, 900, kind, scale, drawPlant);
     }
   }

@@ -12,16 +12,16 @@ namespace sward::editor {
 
 /// Something the user can do. One registered action drives menu, shortcut, toolbar and palette.
 struct Action {
-  std::string id;     ///< such as "file.save"; unique
-  std::string menu;   ///< the menu it stands in, such as "File"; empty: palette alone
-  std::string label;  ///< such as "Save as..."
-  std::string help;   ///< tooltip: what it does, in a sentence
+  std::string id = {};     ///< such as "file.save"; unique
+  std::string menu = {};   ///< the menu it stands in, such as "File"; empty: palette alone
+  std::string label = {};  ///< such as "Save as..."
+  std::string help = {};   ///< tooltip: what it does, in a sentence
   const char* icon = "";
-  std::vector<Shortcut> shortcuts;  ///< the first is shown
-  std::function<void()> run;
-  std::function<bool()> enabled;              ///< empty: always
-  std::function<bool()> checked;              ///< empty: not a toggle
-  std::function<std::string()> currentLabel;  ///< empty: `label`; "Undo: blade height"
+  std::vector<Shortcut> shortcuts = {};  ///< the first is shown
+  std::function<void()> run = {};
+  std::function<bool()> enabled = {};              ///< empty: always
+  std::function<bool()> checked = {};              ///< empty: not a toggle
+  std::function<std::string()> currentLabel = {};  ///< empty: `label`; "Undo: blade height"
   bool separatorBefore = false;
 
   bool isEnabled() const { return !enabled || enabled(); }

@@ -91,7 +91,7 @@ void Application::showMissingAssets() {
   std::vector<std::string> wheres, files;
   for (const project::AssetReference& asset : project::missingAssets(m_document->project())) {
     wheres.push_back(asset.where);
-    files.push_back(asset.file.string());
+    files.push_back(m_document->project().resolve(asset.path).string());
   }
   if (!wheres.empty()) m_dialogs.showMissing(std::move(wheres), std::move(files));
 }
@@ -197,7 +197,7 @@ void Application::dropped(const std::vector<fs::path>& files) {
     } else if (image::canReadImage(file)) {
       edit(
           "soil texture",
-          [&](project::Project& p) { p.patch.soil.texture = project::assetPathFrom(p.folder, file); }, {});
+          [&](project::Project& p) { p.patch.soil.texture = project::assetPath(file, p.folder); }, {});
       m_ui.selection = {};
     } else {
       notice("\"" + file.filename().string() + "\" is no project, glTF mesh or image");
@@ -216,7 +216,7 @@ void Application::browse(const std::string& where, const std::string& files) {
   }
   if (!endings.empty()) options.filters = {{files, endings}};
   chooseFile(std::move(options), [this, where](const fs::path& file) {
-    edit("choose file", [&](project::Project& p) { project::relocate(p, where, file); }, {});
+    edit("choose file", [&](project::Project& p) { (void)project::relocate(p, where, file); }, {});
   });
 }
 
@@ -240,8 +240,8 @@ void Application::watchFiles() {
   if (m_watchedRevision != m_document->revision()) {
     m_watchedRevision = m_document->revision();
     std::vector<fs::path> files;
-    for (const project::AssetReference& asset : project::assetReferences(m_document->project()))
-      files.push_back(asset.file);
+    for (const project::AssetReference& asset : project::assets(m_document->project()))
+      files.push_back(m_document->project().resolve(asset.path));
     m_watch.watchAssets(files);
   }
   for (const FileEvent& event : m_watch.poll(std::chrono::steady_clock::now())) {

@@ -4,7 +4,7 @@
 #include "widgets/item_log.h"
 #include "widgets/theme.h"
 
-#include "project/project.h"
+#include "project/presets.h"
 
 #include <algorithm>
 #include <array>

@@ -184,3 +184,4 @@ void LiveLink::cancelBake() {
 }
 
 }  // namespace sward::editor
+namespace sward::editor { void LiveLink::requestThumbnails(const Document&) {} }

@@ -54,6 +54,7 @@ int runProgram(int argc, char** argv, Interrupts& interrupts) {
   app.set_version_flag("--version", std::string("sward ") + SWARD_VERSION);
   app.require_subcommand(0, 1);
   Program program{interrupts, {}, {}};
+  addEditCommand(app, program);
   addRenderCommand(app, program);
   addBakeCommand(app, program);
   addNewCommand(app, program);

@@ -189,11 +189,13 @@ void ViewportPanel::navigate(PanelContext& context, bool hovered) {
   if (m_drag == Drag::Look && drags) lookAround(ui.camera, dx * 0.5, -dy * 0.5);
   if (drags && (m_drag == Drag::Orbit || m_drag == Drag::Pan || m_drag == Drag::Look)) moved(context);
 
-  const bool flying = (m_drag == Drag::Look || hovered) && !io.WantTextInput && !io.KeyCtrl;
-  if (!flying) return;
+  m_flying = false;
+  const bool canFly = (m_drag == Drag::Look || hovered) && !io.WantTextInput && !io.KeyCtrl;
+  if (!canFly) return;
   const auto key = [](int code) { return ImGui::IsKeyDown(code) ? 1.0 : 0.0; };
   const double ahead = key('W') - key('S'), aside = key('D') - key('A'), rise = key('E') - key('Q');
   if (ahead == 0.0 && aside == 0.0 && rise == 0.0) return;
+  m_flying = true;
   const double elapsed = std::clamp(context.seconds - m_lastSeconds, 0.0, 0.1);
   const double way = kFlySpeed * (0.3 + std::abs(ui.camera.position.z)) * (io.KeyShift ? 4.0 : 1.0) * elapsed;
   fly(ui.camera, ahead * way, aside * way, rise * way);

@@ -14,6 +14,9 @@ class ViewportPanel {
   /// Pixels of the picture that the panel wants.
   int width() const { return m_width; }
   int height() const { return m_height; }
+  double aspect() const { return m_height > 0 ? static_cast<double>(m_width) / m_height : 1.0; }
+  /// A key that moves the camera is held: frames should follow one another.
+  bool flying() const { return m_flying; }
 
  private:
   void header(PanelContext& context);
@@ -28,6 +31,7 @@ class ViewportPanel {
   float m_left = 0.0f, m_top = 0.0f;  ///< of the picture on the screen
   enum class Drag { None, Orbit, Pan, Look, Sun, Split } m_drag = Drag::None;
   double m_lastSeconds = 0.0;
+  bool m_flying = false;
 };
 
 }  // namespace sward::editor

@@ -168,9 +168,11 @@ void FieldPainter::tooltip(const FieldRow& row) const {
   }
   std::string facts = m_factsHaveRange ? rangeText(row) : std::string();
   if (!m_default.empty()) facts += (facts.empty() ? "Default " : "   \u00B7   default ") + m_default;
-  FontScope small(theme().fonts.small);
-  if (!facts.empty()) ImGui::TextDisabled("%s", facts.c_str());
-  ImGui::TextDisabled("%s", row.path.c_str());
+  {
+    FontScope small(theme().fonts.small);
+    if (!facts.empty()) ImGui::TextDisabled("%s", facts.c_str());
+    ImGui::TextDisabled("%s", row.path.c_str());
+  }
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
 }

@@ -129,15 +129,13 @@ void CurveEditor::paintTicks(const Frame& f) const {
     draw->AddText(ImVec2(f.min.x - px(6) - wide, std::round(at)), c.textDim, text.c_str());
   }
   if (f.compact) return;
-  // Inside the plot, where they take no room from it.
-  const ImU32 ink = mixed(c.textDim, c.text, 0.4f);
-  const auto title = [](const std::string& label, const std::string& unit) {
-    return label.empty() || unit.empty() ? label : label + " (" + unit + ")";
+  // In the margin above the limits, where no curve runs.
+  const auto title = [](const char* arrow, const std::string& label, const std::string& unit) {
+    return label.empty() ? "" : arrow + label + (unit.empty() ? "" : " (" + unit + ")") + "     ";
   };
-  const std::string xTitle = title(f.axes->xLabel, f.axes->xUnit), yTitle = title(f.axes->yLabel, f.axes->yUnit);
-  draw->AddText(ImVec2(f.min.x + px(8), f.min.y + px(5)), ink, yTitle.c_str());
-  const float wide = ImGui::CalcTextSize(xTitle.c_str()).x;
-  draw->AddText(ImVec2(f.max.x - wide - px(8), f.max.y - line - px(5)), ink, xTitle.c_str());
+  const std::string titles =
+      title("\u2191 ", f.axes->yLabel, f.axes->yUnit) + title("\u2192 ", f.axes->xLabel, f.axes->xUnit);
+  draw->AddText(ImVec2(f.min.x + px(8), f.min.y + px(4)), mixed(c.textDim, c.text, 0.3f), titles.c_str());
 }
 
 void CurveEditor::paintLayer(const Frame& f, std::size_t index) const {

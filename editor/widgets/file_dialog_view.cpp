@@ -162,10 +162,12 @@ void FileDialog::row(std::size_t index, std::optional<fs::path>& chosen) {
   draw->AddText(ImVec2(at.x + px(2), y), entry.folder ? c.accent : c.textDim, iconOf(entry));
   textEllipsis(ImVec2(at.x + px(26), y), right - px(4), c.text, entry.name);
   if (!m_narrow) {
-    ImGui::TableNextColumn();
-    ImGui::TextDisabled("%s", timeText(entry.modifiedS).c_str());
-    ImGui::TableNextColumn();
-    if (!entry.folder) ImGui::TextDisabled("%s", bytesText(entry.bytes).c_str());
+    const auto cell = [&](const std::string& text) {
+      ImGui::TableNextColumn();
+      draw->AddText(ImVec2(ImGui::GetCursorScreenPos().x, y), c.textDim, text.c_str());
+    };
+    cell(timeText(entry.modifiedS));
+    cell(entry.folder ? "" : bytesText(entry.bytes));
   }
   if (!clicked) return;
   const bool twice = ImGui::IsMouseDoubleClicked(0);

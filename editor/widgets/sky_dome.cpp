@@ -135,7 +135,7 @@ void paintSun(const char* id, const SkyAngles& sun, ImVec2 centre, float radius,
   const float r = px(hot && options.enabled ? 8.0f : 7.0f);
   const bool up = sun.elevationDeg >= 0.0;
   if (up) draw->AddCircleFilled(at, r + px(5), faded(c.sun, 0.30f));
-  draw->AddCircleFilled(at, r, up ? c.sun : c.plot);
+  draw->AddCircleFilled(at, r, up ? c.sun : IM_COL32(22, 26, 36, 255));
   draw->AddCircle(at, r, up ? IM_COL32(255, 255, 255, 230) : c.sun, 0, std::max(1.5f, px(1.5f)));
   logRect("sky:", std::string(id) + ":sun", ImVec2(at.x - r, at.y - r), ImVec2(at.x + r, at.y + r));
 }
@@ -190,9 +190,14 @@ EditState skyDome(const char* id, SkyAngles& sun, float side, const SkyDomeOptio
     if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   }
   ImDrawList* draw = ImGui::GetWindowDrawList();
-  paintDisc(draw, centre, radius, kReach, [&](glm::dvec2 place) {
-    const SkyAngles toward = discAngles(place, DiscMap::Equidistant);
-    return options.colour && toward.elevationDeg >= 0.0 ? options.colour(toward) : suggestedSky(toward, sun);
+  // The ground first and the sky over it: a net across the horizon would blend the two.
+  paintDisc(draw, centre, radius, kReach, [&sun](glm::dvec2 place) {
+    return suggestedSky({discAngles(place, DiscMap::Equidistant).azimuthDeg, -1.0}, sun);
+  });
+  paintDisc(draw, centre, radius, 1.0, [&](glm::dvec2 place) {
+    SkyAngles toward = discAngles(place, DiscMap::Equidistant);
+    toward.elevationDeg = std::max(0.0, toward.elevationDeg);
+    return options.colour ? options.colour(toward) : suggestedSky(toward, sun);
   });
   draw->AddCircle(centre, radius * static_cast<float>(kReach), theme().colours.border, 0, std::max(1.0f, px(1)));
   paintRings(centre, radius, sun.elevationDeg < 2.0);

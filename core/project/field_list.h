@@ -32,4 +32,7 @@ struct FieldInfo {
 /// and for tests.
 std::vector<FieldInfo> fieldList();
 
+/// The format's reference in Markdown: every field with its kind, range, unit, default and help.
+std::string fieldReference();
+
 }  // namespace sward::project

@@ -102,7 +102,13 @@ Result<Project> parse(const std::string& json, const std::filesystem::path& file
 Result<Project> load(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 Result<void> save(const Project& project, const std::filesystem::path& file);
 
-/// Starting projects by name, and the names: meadow, lawn, empty.
+/// A starting project: its name and what it shows, in one line.
+struct TemplateInfo {
+  std::string name;
+  std::string description;
+};
+/// The starting projects, the one that most begin with first.
+std::vector<TemplateInfo> templates();
 std::vector<std::string> templateNames();
 Result<Project> fromTemplate(const std::string& name);
 

@@ -1,110 +1,15 @@
-#include "project/project.h"
-
 #include "project/nearest.h"
+#include "project/presets.h"
+#include "project/project.h"
 
 namespace sward::project {
 namespace {
 
-Plant grass(const std::string& name, double share, double densityPerM2) {
-  Plant plant;
+/// A preset under a name of its own, with its share of this ground.
+Plant planted(std::string_view preset, const char* name, double share) {
+  Plant plant = plantFromPreset(preset);
   plant.name = name;
-  plant.kind = PlantKind::Grass;
   plant.share = share;
-  plant.densityPerM2 = densityPerM2;
-  plant.grass.segments = 5;
-  plant.grass.foldDeg = 0.0;  // a crease is finer than a texel, and doubles the triangles
-  return plant;
-}
-
-// Plants of a meadow are even and many: what stands out on one tile is seen again on every tile that shares its edge.
-// The tallest are not much taller than the rest: rays would cross a high shell of almost nothing.
-
-Plant tallGrass() {
-  Plant plant = grass("tall grass", 0.46, 700.0);
-  plant.grass.heightM = 0.42;
-  plant.grass.heightVariation = 0.15;
-  plant.grass.widthM = 0.0055;
-  plant.grass.bendDeg = 60.0;
-  plant.grass.leanDeg = 14.0;
-  plant.grass.rootColour = {0.085, 0.120, 0.030};
-  plant.grass.tipColour = {0.200, 0.300, 0.060};
-  plant.grass.colourVariation = 0.10;
-  plant.sizeVariation = 0.10;
-  return plant;
-}
-
-Plant fineGrass() {
-  Plant plant = grass("fine grass", 0.40, 1200.0);
-  plant.grass.heightM = 0.27;
-  plant.grass.heightVariation = 0.15;
-  plant.grass.widthM = 0.004;
-  plant.grass.bladesPerPlant = 10;
-  plant.grass.bendDeg = 75.0;
-  plant.grass.leanDeg = 16.0;
-  plant.grass.rootColour = {0.080, 0.115, 0.035};
-  plant.grass.tipColour = {0.250, 0.320, 0.100};
-  plant.grass.colourVariation = 0.10;
-  plant.sizeVariation = 0.10;
-  return plant;
-}
-
-Plant seedStems() {
-  Plant plant = grass("seed stems", 0.04, 500.0);
-  plant.grass.heightM = 0.37;
-  plant.grass.heightVariation = 0.10;
-  plant.grass.widthM = 0.004;
-  plant.grass.bladesPerPlant = 2;
-  plant.grass.bendDeg = 22.0;
-  plant.grass.leanDeg = 6.0;
-  plant.grass.seedHeadShare = 0.8;
-  plant.grass.rootColour = {0.14, 0.18, 0.06};
-  plant.grass.tipColour = {0.30, 0.31, 0.14};
-  plant.grass.seedHeadColour = {0.33, 0.32, 0.16};
-  plant.grass.colourVariation = 0.08;
-  plant.sizeVariation = 0.08;
-  return plant;
-}
-
-Plant daisies() {
-  Plant plant;
-  plant.name = "daisies";
-  plant.kind = PlantKind::Flower;
-  plant.share = 0.035;
-  plant.densityPerM2 = 1500.0;
-  plant.sizeVariation = 0.12;
-  plant.flower.heightM = 0.34;
-  plant.flower.heightVariation = 0.15;
-  plant.flower.petals = 18;
-  plant.flower.petalLengthM = 0.0085;
-  plant.flower.petalWidthM = 0.004;
-  plant.flower.centreRadiusM = 0.0035;
-  plant.flower.petalColour = {0.70, 0.70, 0.66};
-  plant.flower.leafColour = {0.13, 0.22, 0.05};
-  plant.flower.optics.translucency = 0.2;
-  return plant;
-}
-
-Plant buttercups() {
-  Plant plant = daisies();
-  plant.name = "buttercups";
-  plant.share = 0.03;
-  plant.flower.heightM = 0.38;
-  plant.flower.petals = 5;
-  plant.flower.petalLengthM = 0.009;
-  plant.flower.petalWidthM = 0.009;
-  plant.flower.centreRadiusM = 0.003;
-  plant.flower.petalColour = {0.75, 0.56, 0.03};
-  plant.flower.centreColour = {0.60, 0.48, 0.03};
-  return plant;
-}
-
-Plant clover(double share, double densityPerM2, double heightM) {
-  Plant plant;
-  plant.name = "clover";
-  plant.kind = PlantKind::Clover;
-  plant.share = share;
-  plant.densityPerM2 = densityPerM2;
-  plant.clover.heightM = heightM;
   return plant;
 }
 
@@ -133,10 +38,52 @@ Project meadow() {
   Project project;
   project.name = "Meadow";
   project.patch.sideM = 1.6;
-  project.patch.plants = {tallGrass(), fineGrass(), seedStems(), clover(0.06, 300.0, 0.14), daisies(), buttercups()};
+  project.patch.plants = {planted("Meadow grass", "tall grass", 0.46), planted("Fescue", "fine grass", 0.40),
+                          planted("Seed stems", "seed stems", 0.04),   planted("White clover", "clover", 0.06),
+                          planted("Daisy", "daisies", 0.035),          planted("Buttercup", "buttercups", 0.03)};
   project.sun.angles = {285.0, 34.0};
   project.views = views(0.5, 1.3);
   setTheScene(project);
+  return project;
+}
+
+Project flowers() {
+  Project project;
+  project.name = "Flowers";
+  project.patch.sideM = 1.6;
+  // Two species carry the picture and two set accents: as many of each would be confetti.
+  project.patch.plants = {planted("Meadow grass", "tall grass", 0.40), planted("Fescue", "fine grass", 0.42),
+                          planted("Red clover", "red clover", 0.05),   planted("Daisy", "daisies", 0.055),
+                          planted("Buttercup", "buttercups", 0.045),   planted("Cornflower", "cornflowers", 0.022),
+                          planted("Poppy", "poppies", 0.020)};
+  // Flowers stand above leaves that are light enough to set them off.
+  mesh::GrassShape& tall = project.patch.plants[0].grass;
+  tall.heightM = 0.35;
+  tall.tipColour = {0.225, 0.330, 0.070};
+  project.patch.plants[1].grass.heightM = 0.25;
+  project.sun.angles = {275.0, 38.0};
+  project.views = views(0.5, 1.3);
+  setTheScene(project);
+  return project;
+}
+
+Project dry() {
+  Project project;
+  project.name = "Dry";
+  project.patch.sideM = 1.6;
+  project.patch.plants = {planted("Dry grass", "dry grass", 0.64), planted("Fescue", "fine grass", 0.29),
+                          planted("Seed stems", "seed stems", 0.07)};
+  mesh::GrassShape& fine = project.patch.plants[1].grass;
+  fine.rootColour = {0.120, 0.135, 0.045};
+  fine.tipColour = {0.360, 0.310, 0.130};
+  mesh::GrassShape& stems = project.patch.plants[2].grass;
+  stems.tipColour = {0.42, 0.34, 0.17};
+  stems.seedHeadColour = {0.46, 0.34, 0.17};
+  project.patch.soil.colour = {0.140, 0.105, 0.070};
+  project.sun.angles = {290.0, 25.0};
+  project.views = views(0.5, 1.3);
+  setTheScene(project);
+  project.sky.turbidity = 2.6;  // dust
   return project;
 }
 
@@ -144,27 +91,7 @@ Project lawn() {
   Project project;
   project.name = "Lawn";
   project.patch.sideM = 1.0;
-  Plant blades = grass("lawn grass", 0.65, 2600.0);
-  blades.grass.heightM = 0.055;
-  blades.grass.heightVariation = 0.15;
-  blades.grass.widthM = 0.0032;
-  blades.grass.bladesPerPlant = 7;
-  blades.grass.segments = 4;
-  blades.grass.bendDeg = 45.0;
-  blades.grass.leanDeg = 18.0;
-  blades.grass.clumpRadiusM = 0.014;
-  blades.grass.rootColour = {0.080, 0.115, 0.032};
-  blades.grass.tipColour = {0.150, 0.250, 0.050};
-  blades.grass.colourVariation = 0.10;
-  Plant fescue = blades;
-  fescue.name = "fine fescue";
-  fescue.share = 0.35;
-  fescue.densityPerM2 = 3200.0;
-  fescue.grass.heightM = 0.05;
-  fescue.grass.widthM = 0.0022;
-  fescue.grass.bendDeg = 65.0;
-  fescue.grass.tipColour = {0.165, 0.240, 0.065};
-  project.patch.plants = {blades, fescue};
+  project.patch.plants = {planted("Lawn grass", "lawn grass", 0.65), planted("Lawn fescue", "fine fescue", 0.35)};
   project.sun.angles = {285.0, 38.0};
   project.views = views(0.06, 1.1);
   setTheScene(project);
@@ -181,11 +108,23 @@ Project empty() {
 
 struct Template {
   const char* name;
+  const char* description;
   Project (*make)();
 };
-constexpr Template kTemplates[] = {{"meadow", meadow}, {"lawn", lawn}, {"empty", empty}};
+constexpr Template kTemplates[] = {
+    {"meadow", "Knee-high grasses with clover, daisies and buttercups", meadow},
+    {"flowers", "Early summer: poppies, cornflowers and daisies among fine grass", flowers},
+    {"dry", "Late summer: straw with seed heads over pale soil", dry},
+    {"lawn", "Mown grass of two kinds", lawn},
+    {"empty", "Bare soil, to plant from nothing", empty}};
 
 }  // namespace
+
+std::vector<TemplateInfo> templates() {
+  std::vector<TemplateInfo> list;
+  for (const Template& entry : kTemplates) list.push_back({entry.name, entry.description});
+  return list;
+}
 
 std::vector<std::string> templateNames() {
   std::vector<std::string> names;

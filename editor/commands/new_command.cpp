@@ -2,6 +2,7 @@
 
 #include "bake/import.h"
 
+#include <algorithm>
 #include <iostream>
 
 namespace sward::editor {
@@ -27,9 +28,15 @@ Result<void> useMesh(project::Project& project, const fs::path& mesh, const fs::
 
 int listTemplates(const Program& program) {
   if (program.common.json) {
-    print({{"templates", project::templateNames()}});
-  } else {
-    for (const std::string& name : project::templateNames()) std::cout << name << '\n';
+    Json descriptions = Json::object();
+    for (const project::TemplateInfo& entry : project::templates()) descriptions[entry.name] = entry.description;
+    print({{"templates", project::templateNames()}, {"descriptions", descriptions}});
+    return kDone;
+  }
+  std::size_t widest = 0;
+  for (const project::TemplateInfo& entry : project::templates()) widest = std::max(widest, entry.name.size());
+  for (const project::TemplateInfo& entry : project::templates()) {
+    std::cout << entry.name << std::string(widest - entry.name.size() + 2, ' ') << entry.description << '\n';
   }
   return kDone;
 }

@@ -39,7 +39,7 @@ void CurveEditor::layerChips(Frame& f, float right) {
     CurveLayer& layer = f.layers[i];
     const bool active = i == m_active;
     const float text = ImGui::CalcTextSize(layer.name.c_str()).x;
-    const float wide = text + px(30);
+    const float wide = text + px(layer.locked ? 46.0f : 30.0f);
     if (i > 0) ImGui::SameLine(0.0f, px(4));
     if (ImGui::GetCursorScreenPos().x + wide > right) break;
     ImGui::PushID(static_cast<int>(i));
@@ -56,6 +56,10 @@ void CurveEditor::layerChips(Frame& f, float right) {
     layer.visible ? draw->AddCircleFilled(dot, px(4), colour) : draw->AddCircle(dot, px(4), colour, 0, px(1.5f));
     const ImU32 ink = !layer.visible ? faded(c.textDim, 0.7f) : active ? c.text : c.textDim;
     draw->AddText(ImVec2(min.x + px(22), min.y + ImGui::GetStyle().FramePadding.y), ink, layer.name.c_str());
+    if (layer.locked) {
+      FontScope small(theme().fonts.small);
+      draw->AddText(ImVec2(max.x - px(20), min.y + px(5)), c.textDim, icon::kLock);
+    }
     hoverText("Click to edit this curve, right-click to hide or lock it");
     if (ImGui::BeginPopupContextItem("chip menu")) {
       if (ImGui::MenuItem("Visible", nullptr, layer.visible)) layer.visible = !layer.visible;
@@ -161,9 +165,9 @@ void CurveEditor::barButtons(Frame& f) {
 void CurveEditor::bar(Frame& f, float width) {
   const ImVec2 start = ImGui::GetCursorScreenPos();
   const float buttons = 4.0f * (ImGui::GetFrameHeight() + px(6));
-  const bool entry = width > px(430);
+  const bool entry = width > px(430) && m_selection.size() == 1;
   const float entryWidth = entry ? std::min(px(230), width * 0.4f) : 0.0f;
-  float right = start.x + width - buttons;
+  const float right = start.x + width - buttons;
   layerChips(f, right - entryWidth - px(8));
   if (entry) {
     ImGui::SetCursorScreenPos(ImVec2(right - entryWidth - px(6), start.y));

@@ -113,19 +113,13 @@ void CurveEditor::paintTicks(const Frame& f) const {
   const float line = ImGui::GetFontSize();
   const double sx = niceStep(m_x1 - m_x0, static_cast<double>((f.max.x - f.min.x) / px(80)));
   float freeFrom = f.min.x - px(20);
-  const std::string xTitle = withUnit(f.axes->xLabel, f.axes->xUnit.empty() ? "" : "(" + f.axes->xUnit + ")");
-  const float xTitleWidth = f.compact || xTitle.empty() ? 0.0f : ImGui::CalcTextSize(xTitle.c_str()).x + px(12);
   for (double x = std::ceil(m_x0 / sx - 1e-9) * sx; x <= m_x1 + 1e-9 * sx; x += sx) {
     const std::string text = tickText(x, sx);
     const float wide = ImGui::CalcTextSize(text.c_str()).x;
     const float at = std::clamp(toScreen(f, x, 0).x - 0.5f * wide, f.min.x - px(4), f.max.x - wide + px(4));
-    if (at < freeFrom || at + wide > f.max.x - xTitleWidth) continue;
+    if (at < freeFrom) continue;
     draw->AddText(ImVec2(std::round(at), f.max.y + px(3)), c.textDim, text.c_str());
     freeFrom = at + wide + px(6);
-  }
-  if (xTitleWidth > 0.0f) {
-    const float wide = ImGui::CalcTextSize(xTitle.c_str()).x;
-    draw->AddText(ImVec2(f.max.x - wide, f.max.y + px(3)), mixed(c.textDim, c.text, 0.5f), xTitle.c_str());
   }
   const double sy = niceStep(m_y1 - m_y0, static_cast<double>((f.max.y - f.min.y) / px(44)));
   for (double y = std::ceil(m_y0 / sy - 1e-9) * sy; y <= m_y1 + 1e-9 * sy; y += sy) {
@@ -134,11 +128,14 @@ void CurveEditor::paintTicks(const Frame& f) const {
     const float at = std::clamp(toScreen(f, 0, y).y - 0.5f * line, f.min.y - px(2), f.max.y - line + px(2));
     draw->AddText(ImVec2(f.min.x - px(6) - wide, std::round(at)), c.textDim, text.c_str());
   }
-  const std::string yTitle = withUnit(f.axes->yLabel, f.axes->yUnit.empty() ? "" : "(" + f.axes->yUnit + ")");
-  if (!f.compact && !yTitle.empty()) {
-    const ImVec2 at(f.min.x + px(7), f.min.y + px(5));
-    draw->AddText(at, mixed(c.textDim, c.text, 0.5f), yTitle.c_str());
-  }
+  if (f.compact) return;
+  // In the margin above the limits, where no curve runs.
+  const auto title = [](const char* arrow, const std::string& label, const std::string& unit) {
+    return label.empty() ? "" : arrow + label + (unit.empty() ? "" : " (" + unit + ")") + "     ";
+  };
+  const std::string titles =
+      title("\u2191 ", f.axes->yLabel, f.axes->yUnit) + title("\u2192 ", f.axes->xLabel, f.axes->xUnit);
+  draw->AddText(ImVec2(f.min.x + px(8), f.min.y + px(4)), mixed(c.textDim, c.text, 0.3f), titles.c_str());
 }
 
 void CurveEditor::paintLayer(const Frame& f, std::size_t index) const {
@@ -153,11 +150,14 @@ void CurveEditor::paintLayer(const Frame& f, std::size_t index) const {
   for (float x = f.min.x; x <= f.max.x + step; x += step) line.push_back(toScreen(f, xAt(f, x), curve(xAt(f, x))));
   if (active) {
     const PlainFill plain(draw);
+    const float from = toScreen(f, f.axes->limits.xLow, 0).x, to = toScreen(f, f.axes->limits.xHigh, 0).x;
+    draw->PushClipRect(ImVec2(std::max(from, f.min.x), f.min.y), ImVec2(std::min(to, f.max.x), f.max.y), true);
     const float floor = std::clamp(toScreen(f, 0, std::max(0.0, f.axes->limits.yLow)).y, f.min.y, f.max.y);
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
       draw->AddQuadFilled(line[i], line[i + 1], ImVec2(line[i + 1].x, floor), ImVec2(line[i].x, floor),
                           faded(colour, own ? 0.09f : 0.05f));
     }
+    draw->PopClipRect();
   }
   const float thick = std::max(1.5f, px(active ? 2.0f : 1.5f));
   // Beyond its points a curve is constant, which is thinner; a built-in one is dashed.

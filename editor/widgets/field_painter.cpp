@@ -14,7 +14,7 @@
 namespace sward::editor {
 namespace {
 
-constexpr float kGutter = 12.0f;  ///< left of labels: the mark of changed values and the chevrons of titles
+constexpr float kGutter = 14.0f;  ///< left of labels: the mark of changed values and the chevrons of titles
 constexpr float kIndent = 10.0f;  ///< of a struct's rows
 
 double heldIn(double value, const NumberStyle& style) {
@@ -140,7 +140,8 @@ void FieldPainter::checkRange(FieldRow& row, double value) const {
   const NumberStyle& style = row.look.number;
   if (value >= style.low && value <= style.high) return;
   row.look.number.faulty = true;
-  if (row.problem.empty()) row.problem = "The value is " + shownValue(value, style.shown) + ". " + rangeText(row) + ".";
+  if (row.problem.empty())
+    row.problem = shownValue(value, style.shown) + " is out of range. Give " + lowerFirst(rangeText(row)) + ".";
 }
 
 std::string FieldPainter::rangeText(const FieldRow& row) const {
@@ -168,9 +169,11 @@ void FieldPainter::tooltip(const FieldRow& row) const {
   }
   std::string facts = m_factsHaveRange ? rangeText(row) : std::string();
   if (!m_default.empty()) facts += (facts.empty() ? "Default " : "   \u00B7   default ") + m_default;
-  FontScope small(theme().fonts.small);
-  if (!facts.empty()) ImGui::TextDisabled("%s", facts.c_str());
-  ImGui::TextDisabled("%s", row.path.c_str());
+  {
+    FontScope small(theme().fonts.small);
+    if (!facts.empty()) ImGui::TextDisabled("%s", facts.c_str());
+    ImGui::TextDisabled("%s", row.path.c_str());
+  }
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
 }
@@ -192,7 +195,7 @@ RowMenu FieldPainter::endRow(FieldRow& row) {
     ImGui::Separator();
     item(icon::kCopy, "Copy value", true, RowMenu::Copy);
     item(icon::kPaste, "Paste value", !clipboard().empty(), RowMenu::Paste);
-    if (ImGui::MenuItem((std::string(icon::kMore) + "   Copy path").c_str())) copy(row.path);
+    if (ImGui::MenuItem((std::string(icon::kCopy) + "   Copy path").c_str())) copy(row.path);
     logItem("menu:", "Copy path");
     ImGui::EndPopup();
   }

@@ -31,7 +31,7 @@ struct FieldEvents {
 struct FieldOptions {
   std::string filter;        ///< only fields whose label holds these words; empty: all
   bool advanced = false;     ///< also those that few need; one that differs from its default is always shown
-  float labelShare = 0.42f;  ///< of the width, for the labels
+  float labelShare = 0.44f;  ///< of the width, for the labels
   const std::vector<project::Problem>* problems = nullptr;  ///< of the document: shown at the fields that they name
 };
 

@@ -153,7 +153,9 @@ void drawField(const ImRect& box, ImGuiID id, double value, const NumberStyle& s
   };
   if (*style.caption != '\0') print(std::string(style.caption) + "  ", dim);
   print(shownNumber(value, style.shown), ink);
-  if (!style.shown.suffix.empty()) print((style.shown.attached ? "" : " ") + style.shown.suffix, dim);
+  // A narrow field shows its number rather than half a unit.
+  const std::string suffix = (style.shown.attached ? "" : " ") + style.shown.suffix;
+  if (at.x + ImGui::CalcTextSize(suffix.c_str()).x <= box.Max.x - px(3)) print(suffix, dim);
   draw->PopClipRect();
 }
 

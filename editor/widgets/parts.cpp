@@ -44,7 +44,7 @@ bool textButton(const char* id, const char* text, bool enabled, float width, boo
   const Palette& c = theme().colours;
   FontScope strong(primary ? theme().fonts.strong : nullptr);
   ImGui::BeginDisabled(!enabled);
-  const ImVec2 padding(px(16), ImGui::GetStyle().FramePadding.y + px(1));
+  const ImVec2 padding(px(16), ImGui::GetStyle().FramePadding.y);
   const float wide = std::max(width, ImGui::CalcTextSize(text).x + 2 * padding.x);
   const bool pressed = ImGui::InvisibleButton(id, ImVec2(wide, ImGui::GetFontSize() + 2 * padding.y));
   logItem("action:", id);
@@ -114,7 +114,7 @@ bool searchBox(const char* id, std::string& text, float width, const char* hint)
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::PushID(id);
   ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, 0.5f * height);
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(height + px(2), ImGui::GetStyle().FramePadding.y));
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(px(31), ImGui::GetStyle().FramePadding.y));
   ImGui::SetNextItemWidth(width);
   bool changed = ImGui::InputTextWithHint("##text", hint, &text);
   ImGui::PopStyleVar(2);
@@ -209,9 +209,11 @@ void keyCaps(const char* shortcut) {
     if (!first) ImGui::SameLine(0.0f, px(3));
     first = false;
     const ImVec2 text = ImGui::CalcTextSize(key.c_str());
-    const float height = text.y + px(6);
-    ImGui::Dummy(ImVec2(std::max(height, text.x + px(12)), height));
-    const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
+    // As high as a field, so that it stands in line with one; the cap itself is in the middle.
+    const float height = text.y + px(6), line = std::max(height, ImGui::GetFrameHeight());
+    ImGui::Dummy(ImVec2(std::max(height, text.x + px(12)), line));
+    const float top = std::round(ImGui::GetItemRectMin().y + 0.5f * (line - height));
+    const ImVec2 min(ImGui::GetItemRectMin().x, top), max(ImGui::GetItemRectMax().x, top + height);
     ImDrawList* draw = ImGui::GetWindowDrawList();
     draw->AddRectFilled(min, max, c.border, px(4));
     draw->AddRectFilled(min, ImVec2(max.x, max.y - px(2)), c.field, px(4));

@@ -68,8 +68,10 @@ Toasts::Drawn Toasts::drawOne(Toast& toast, ImVec2 corner, float width) {
   ImGui::Begin(name.c_str(), nullptr, kFlags);
   const ImVec2 min = ImGui::GetWindowPos();
   drawn.height = ImGui::GetWindowSize().y;
+  ImGui::PushClipRect(min, ImVec2(min.x + width, min.y + drawn.height), false);
   ImGui::GetWindowDrawList()->AddRectFilled(min, ImVec2(min.x + px(4), min.y + drawn.height), faded(sign.colour, alpha),
                                             px(6), ImDrawFlags_RoundCornersLeft);
+  ImGui::PopClipRect();
   ImGui::AlignTextToFramePadding();
   ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(sign.colour), "%s", sign.icon);
   ImGui::SameLine();

@@ -8,6 +8,7 @@
 #include "bake/temporary_folder.h"
 
 #include "mesh/procedural.h"
+#include "project/presets.h"
 
 #include <fstream>
 #include <functional>
@@ -438,6 +439,23 @@ TEST(Plants, EveryVariantDiffers) {
   const auto a = plantModel(project, 0, 0).value(), b = plantModel(project, 0, 1).value();
   EXPECT_NE(a.positions, b.positions);
   EXPECT_NEAR(plantCount(project, 0), 300 * 0.16 * 0.8, 1e-9);
+}
+
+TEST(Plants, EveryPresetGrows) {
+  for (const project::PlantPreset& preset : project::plantPresets()) {
+    Project project = smallProject();
+    project.patch.plants = {preset.plant};
+    double height = 0.0;
+    for (int variant = 0; variant < variantCount(preset.plant); ++variant) {
+      const auto model = plantModel(project, 0, variant);
+      ASSERT_TRUE(model.ok()) << preset.name;
+      EXPECT_GT(model->triangles.size(), 20u) << preset.name;
+      EXPECT_LT(model->triangles.size(), 3000u) << preset.name;  // thousands of them are traced
+      height = std::max(height, static_cast<double>(mesh::bounds(*model).high.z));
+    }
+    EXPECT_GT(height, 0.03) << preset.name;
+    EXPECT_LT(height, 1.0) << preset.name;
+  }
 }
 
 TEST(Plants, ColoursDoNotMoveGeometry) {

@@ -120,6 +120,10 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{{"render", "p.sward", "-o", "a.png", "--set", "sampling"}, "path=value"},
         Wrong{{"bake", "p.sward", "--for", "nobody"}, "nobody"},
         Wrong{{"check", "p.sward", "--set", "tiles.apron=3"}, "tiles.apron"},
+        // Found by asking where the sun stands, not by ranges.
+        Wrong{{"check", "p.sward", "--set", "lights.pattern=sun_path", "--set", "lights.sunPath.latitudeDeg=80",
+               "--set", "lights.sunPath.dates=[{\"month\": 12}]"},
+              "never stands higher"},
         Wrong{{"report", "p.sward", "-o", "r", "--section", "sped"}, "sped"},
         Wrong{{"report", "p.sward", "-o", "file"}, "file"}, Wrong{{"export", "p.sward", "-o", "file"}, "file"},
         Wrong{{"new", "n.sward", "--template", "medow"}, "Did you mean \"meadow\""},
@@ -200,7 +204,11 @@ TEST_F(Cli, NewExportAndNewAgain) {
   EXPECT_EQ(project->patch.plants[0].kind, project::PlantKind::Gltf);
   EXPECT_EQ(project->patch.plants[0].gltf.path, "../plants/grass-1.glb");
   EXPECT_EQ(bare({"check", "projects/mine.sward"}).exitCode, 0);
-  EXPECT_EQ(bare({"new", "--list"}).out, "meadow\nlawn\nempty\n");
+  const std::string list = bare({"new", "--list"}).out;
+  for (const char* name : {"meadow   ", "flowers  ", "dry      ", "lawn     ", "empty    "}) {
+    EXPECT_THAT(list, HasSubstr(name));
+  }
+  EXPECT_THAT(list, HasSubstr("clover, daisies"));
   EXPECT_EQ(bare({"new", "p.sward", "--force", "--quiet"}).exitCode, 0);
 }
 

@@ -1,7 +1,11 @@
 #include "project/field_list.h"
 #include "project/project.h"
 
+#include "base/file.h"
+
 #include <cctype>
+#include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
@@ -150,6 +154,31 @@ TEST(Schema, CurvesNameTheirAxes) {
     EXPECT_TRUE(hasRange(spec)) << field.path;
   }
   EXPECT_GE(curves, 1);
+}
+
+/// docs/project-format.md is this text. To renew it: SWARD_WRITE_REFERENCE=1 test_project --gtest_filter=*Reference*
+TEST(Schema, ReferenceInTheDocsIsUpToDate) {
+  const std::filesystem::path file = std::filesystem::path(SWARD_SOURCE_DIR) / "docs" / "project-format.md";
+  const std::string reference = fieldReference();
+  if (std::getenv("SWARD_WRITE_REFERENCE") != nullptr) {
+    std::filesystem::create_directories(file.parent_path());
+    ASSERT_TRUE(base::writeFileAtomically(file, reference).ok());
+  }
+  const auto committed = base::readTextFile(file);
+  ASSERT_TRUE(committed.ok()) << file;
+  EXPECT_EQ(*committed, reference) << file << " is stale";
+}
+
+TEST(Schema, ReferenceNamesEveryField) {
+  const std::string reference = fieldReference();
+  for (const FieldInfo& field : fieldList()) {
+    const std::size_t table = reference.find(field.owner.empty() ? "## The file" : "## `" + field.owner + "`\n");
+    ASSERT_NE(table, std::string::npos) << field.path;
+    const std::string rows = reference.substr(table, reference.find("\n## ", table + 1) - table);
+    EXPECT_THAT(rows, testing::HasSubstr("| `" + field.name + "` |")) << field.path;
+    EXPECT_THAT(rows, testing::HasSubstr(field.spec.help)) << field.path;
+  }
+  EXPECT_THAT(reference, testing::HasSubstr("0.002 to 20 m"));
 }
 
 /// A panel folds neighbours together; a group that came back later would fold twice.

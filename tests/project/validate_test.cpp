@@ -1,9 +1,11 @@
 #include "project/limits.h"
+#include "project/presets.h"
 #include "project/project.h"
 
 #include <cmath>
 #include <fstream>
 #include <functional>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -34,6 +36,31 @@ TEST(Validate, TemplatesAreFreeOfProblems) {
   }
   EXPECT_FALSE(fromTemplate("medow").ok());
   EXPECT_THAT(fromTemplate("medow").error().remedy, HasSubstr("\"meadow\""));
+}
+
+TEST(Validate, PlantPresetsAreFreeOfProblems) {
+  std::set<std::string> names;
+  for (const PlantPreset& preset : plantPresets()) {
+    EXPECT_TRUE(names.insert(preset.name).second) << preset.name;
+    EXPECT_TRUE(preset.description.ends_with('.')) << preset.name;
+    EXPECT_LE(preset.description.size(), 80u) << preset.name << ": one line";
+    EXPECT_FALSE(preset.plant.name.empty());
+    EXPECT_EQ(plantFromPreset(preset.name), preset.plant);
+    Project project = fromTemplate("empty").value();
+    project.patch.plants = {preset.plant};
+    EXPECT_THAT(describe(validate(project)), testing::IsEmpty()) << preset.name;
+  }
+  EXPECT_GE(names.size(), 9u);
+  EXPECT_EQ(plantFromPreset("no such plant"), Plant{});
+}
+
+TEST(Validate, TemplatesSayWhatTheyShow) {
+  std::set<std::string> descriptions;
+  for (const TemplateInfo& entry : templates()) {
+    EXPECT_TRUE(fromTemplate(entry.name).ok());
+    EXPECT_GT(entry.description.size(), 10u);
+    EXPECT_TRUE(descriptions.insert(entry.description).second);
+  }
 }
 
 /// One rule at its edges: an override that is still allowed, and one that is not.

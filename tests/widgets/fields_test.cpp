@@ -381,6 +381,15 @@ TEST(Fields, WrongValuesAreRed) {
   EXPECT_GT(pixelsLike(b.ui.picture(), b.ui.item("field:g.widthM"), red), 40);
 }
 
+TEST(Fields, TooltipsShowAfterAWhile) {
+  GrassBench b("g");
+  b.ui.moveTo(b.ui.at("label:g.heightM"));
+  b.ui.frames(5);
+  const int before = ImGui::GetIO().MetricsRenderWindows;
+  b.ui.frames(40);
+  EXPECT_EQ(ImGui::GetIO().MetricsRenderWindows, before + 1);
+}
+
 TEST(Fields, ChangedValuesCarryAMark) {
   GrassBench b("g");
   b.ui.moveTo(ImVec2(1, 1));

@@ -41,6 +41,13 @@ float cross(glm::vec2 a, glm::vec2 b) {
   return a.x * b.y - a.y * b.x;
 }
 
+/// On which side of the edge from a to b a point lies; exactly the opposite for the edge from b to a, so that two
+/// triangles leave no pixel between them.
+float side(glm::vec2 a, glm::vec2 b, glm::vec2 p) {
+  const bool flip = b.x < a.x || (b.x == a.x && b.y < a.y);
+  return flip ? -cross(a - b, p - b) : cross(b - a, p - a);
+}
+
 /// Pixels on a shared edge belong to one of the two triangles: the rule of the top and left edges.
 bool owns(float weight, glm::vec2 edge) {
   return weight > 0.0f || (weight == 0.0f && (edge.y < 0.0f || (edge.y == 0.0f && edge.x > 0.0f)));
@@ -63,7 +70,7 @@ void triangle(image::Image& out, std::array<Corner, 3> c, const ImVec4& clip, co
   for (int y = y0; y < y1; ++y) {
     for (int x = x0; x < x1; ++x) {
       const glm::vec2 p(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-      const float w0 = cross(e0, p - c[1].at), w1 = cross(e1, p - c[2].at), w2 = cross(e2, p - c[0].at);
+      const float w0 = side(c[1].at, c[2].at, p), w1 = side(c[2].at, c[0].at, p), w2 = side(c[0].at, c[1].at, p);
       if (!owns(w0, e0) || !owns(w1, e1) || !owns(w2, e2)) continue;
       const glm::vec3 w = glm::vec3(w0, w1, w2) / area;
       const glm::vec4 colour = w.x * c[0].colour + w.y * c[1].colour + w.z * c[2].colour;

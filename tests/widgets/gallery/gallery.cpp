@@ -2,10 +2,17 @@
 
 #include "widgets/curve_editor.h"
 #include "widgets/fields.h"
+#include "widgets/file_dialog.h"
 #include "widgets/harness.h"
+#include "widgets/icons.h"
+#include "widgets/light_palette.h"
+#include "widgets/parts.h"
+#include "widgets/sky_dome.h"
+#include "widgets/toasts.h"
 
 #include "image/io.h"
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -76,6 +83,93 @@ void drawCurves() {
   ImGui::EndGroup();
 }
 
+/// Four skies, a palette with values and one without.
+void drawSkies() {
+  static std::array<SkyAngles, 4> suns{{{225, 38}, {262, 6}, {285, -7}, {140, 62}}};
+  const float side = px(270);
+  for (std::size_t i = 0; i < suns.size(); ++i) {
+    if (i > 0) ImGui::SameLine();
+    std::vector<SkyAngles> path;
+    for (int hour = 0; hour < 24 && i == 3; ++hour) path.push_back({15.0 * hour, 62.0 - 5.5 * std::abs(hour - 9)});
+    SkyDomeOptions options;
+    options.path = path;
+    skyDome(("dome" + std::to_string(i)).c_str(), suns[i], side, options);
+  }
+  static std::vector<scene::SunAngles> lights;
+  if (lights.empty()) {
+    for (int i = 0; i < 15; ++i) {
+      const double z = (i + 0.5) / 15.0;
+      lights.push_back({std::fmod(137.508 * i, 360.0), glm::degrees(std::asin(z))});
+    }
+  }
+  static LightPalette plain, painted;
+  plain.select({4});
+  plain.draw("plain", lights, true, px(360), SkyAngles{225, 38});
+  ImGui::SameLine(0, px(30));
+  HemisphereValues values;
+  values.side = 48;
+  values.title = "Nearest light";
+  values.unit = "\u00B0";
+  values.high = 40.0;
+  for (int row = 0; row < values.side; ++row) {
+    for (int column = 0; column < values.side; ++column) {
+      const glm::dvec2 place = HemisphereValues::place(values.side, column, row);
+      double nearest = 2.0;
+      for (const scene::SunAngles& light : lights) {
+        nearest = std::min(nearest,
+                           glm::distance(place, discPlace({light.azimuthDeg, light.elevationDeg}, DiscMap::EqualArea)));
+      }
+      values.values.push_back(static_cast<float>(80.0 * nearest));
+    }
+  }
+  painted.draw("painted", lights, false, px(360), SkyAngles{225, 38}, &values);
+}
+
+void drawParts(Toasts& toasts) {
+  static std::string search = "height", none;
+  static bool on = true, off = false;
+  iconButton("new", icon::kNew, "New");
+  for (const auto& [id, sign] : {std::pair{"open", icon::kFolder}, {"save", icon::kSave}, {"undo", icon::kUndo}}) {
+    ImGui::SameLine(0, px(2));
+    iconButton(id, sign, id);
+  }
+  ImGui::SameLine(0, px(2));
+  iconButton("redo", icon::kRedo, "Redo", "", false);
+  ImGui::SameLine(0, px(12));
+  toolToggle("snap", icon::kSnap, true, "Snap");
+  ImGui::SameLine(0, px(2));
+  toolToggle("grid", icon::kGrid, false, "Grid");
+  ImGui::SameLine(0, px(20));
+  primaryButton("render", "Render");
+  ImGui::SameLine();
+  plainButton("cancel", "Cancel");
+  ImGui::SameLine();
+  primaryButton("no", "Render", false);
+  searchBox("a", search, px(240));
+  ImGui::SameLine();
+  searchBox("b", none, px(240), "Search actions");
+  tickBox("on", on);
+  ImGui::SameLine();
+  tickBox("off", off);
+  ImGui::SameLine(0, px(20));
+  keyCaps("Ctrl+Shift+S");
+  ImGui::SameLine(0, px(20));
+  keyCaps("F");
+  progressPill("known", "Baking meadow  \u00B7  12 s left", 0.4f, px(260), true);
+  ImGui::SameLine();
+  progressPill("unknown", "Drawing", -1.0f, px(160));
+  sectionHeader("plants", "Plants", true, "3");
+  static const std::array<const char*, 4> kNames{"Fescue", "Ox-eye daisy", "White clover", "A mesh of a long name"};
+  static const std::array<const char*, 4> kIcons{icon::kLeaf, icon::kFlower, icon::kLeaf, icon::kModel};
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    if (i > 0) ImGui::SameLine();
+    thumbnailCell(kNames[i], kNames[i], nullptr, kIcons[i], i == 1, px(92));
+  }
+  sectionHeader("lights", "Light directions", false, "15");
+  hint("Drag a glTF file into the window to plant your own mesh.");
+  toasts.draw(ImVec2(0, 0), ImGui::GetIO().DisplaySize);
+}
+
 void writePage(const std::string& folder, const char* name, float w, float h, ThemeKind kind, float scale,
                const std::function<void()>& draw, const std::function<void(Harness&)>& drive = {}) {
   Harness ui(w * scale, h * scale, kind, scale);
@@ -89,6 +183,34 @@ void writePage(const std::string& folder, const char* name, float w, float h, Th
   }
 }
 
+void writeParts(const std::string& folder, ThemeKind kind, float scale) {
+  Toasts toasts;
+  toasts.add(Severity::Done, "Saved meadow.sward");
+  toasts.add(Severity::Warning, "meadow.sward changed on disk since it was opened here.", "Reload");
+  toasts.add(Severity::Error, "The picture could not be written: the disk is full. Free some space and try again.");
+  writePage(folder, "parts", 620, 640, kind, scale, [&toasts] { drawParts(toasts); });
+}
+
+void writeDialog(const std::string& folder, ThemeKind kind, float scale) {
+  FileDialog dialog;
+  FileDialogOptions options;
+  options.mode = FileDialogMode::Save;
+  options.title = "Save the project";
+  options.folder = std::filesystem::path(SWARD_SOURCE_DIR) / "core";
+  options.name = "meadow";
+  options.filters = {{"All files", {}}};
+  options.places = {{"Sample projects", std::filesystem::path(SWARD_SOURCE_DIR) / "projects"}};
+  writePage(
+      folder, "dialog", 900, 600, kind, scale, [&] { dialog.draw(); },
+      [&](Harness& ui) {
+        dialog.open(options);
+        ui.frames(4);
+        ui.moveTo(ui.at("file:bake"));
+        ui.click("file:gpu");
+        ui.moveTo(ui.at("file:bake"));
+      });
+}
+
 void writeAll(const std::string& folder) {
   for (const ThemeKind kind : {ThemeKind::Dark, ThemeKind::Light}) {
     for (const float scale : {1.0f, 2.0f}) {
@@ -97,6 +219,21 @@ void writeAll(const std::string& folder) {
         ui.clickAt(ui.at("curve:wide:point:1"));
         const ImVec2 p = ui.at("curve:wide:point:2");
         ui.moveTo(ImVec2(p.x + 90, p.y));
+      });
+      writePage(folder, "sky", 1180, 730, kind, scale, drawSkies);
+      writeParts(folder, kind, scale);
+      writeDialog(folder, kind, scale);
+      writePage(folder, "picker", 480, 560, kind, scale, drawGrass, [](Harness& ui) {
+        ui.click("field:patch.plants[0].grass.rootColour");
+        ui.frames(3);
+      });
+      writePage(folder, "tooltip", 480, 400, kind, scale, drawGrass, [](Harness& ui) {
+        ui.moveTo(ui.at("label:patch.plants[0].grass.widthM"));
+        ui.frames(40);
+      });
+      writePage(folder, "menu", 480, 400, kind, scale, drawGrass, [](Harness& ui) {
+        ui.click("label:patch.plants[0].grass.heightM", 1);
+        ui.frames(3);
       });
       writePage(folder, "plant", 360, 900, kind, scale, drawPlant);
     }

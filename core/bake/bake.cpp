@@ -34,4 +34,15 @@ Result<std::shared_ptr<const GroundBake>> Baker::ground(const project::Project& 
   return ground;
 }
 
+Result<std::shared_ptr<const Inspection>> Baker::inspection(const project::Project& project, const JobContext& job,
+                                                            BakeReport* report) {
+  SWARD_TRY(project::requireValid(project));
+  SWARD_ASSIGN(std::vector<glm::dvec3> lights, scene::lightDirections(project.lights));
+  SWARD_ASSIGN(GroundKeys keys, groundKeys(project, lights));
+  Session session(project, std::move(lights), std::move(keys), job, m_impl->memory, m_impl->disk);
+  auto inspection = session.inspection();
+  if (report != nullptr) *report = session.takeReport();
+  return inspection;
+}
+
 }  // namespace sward::bake

@@ -2,6 +2,7 @@
 
 #include "bake/cache.h"
 #include "bake/ground_bake.h"
+#include "bake/inspection.h"
 #include "base/job.h"
 #include "base/result.h"
 #include "project/project.h"
@@ -43,6 +44,10 @@ class Baker {
   /// The ground of a valid project. `report`, when given, is filled with what was done.
   Result<std::shared_ptr<const GroundBake>> ground(const project::Project& project, const JobContext& job,
                                                    BakeReport* report = nullptr);
+  /// What Inspection shows of the same ground: asked for apart, since no picture needs it. After ground() of the same
+  /// project nothing is traced again.
+  Result<std::shared_ptr<const Inspection>> inspection(const project::Project& project, const JobContext& job,
+                                                       BakeReport* report = nullptr);
 
  private:
   struct Impl;

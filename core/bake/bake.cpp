@@ -50,4 +50,15 @@ bool Baker::holds(const base::Hash128& groundKey) const {
   return m_impl->memory.contains(groundKey) || (m_impl->disk && m_impl->disk->contains("ground", groundKey));
 }
 
+Result<std::shared_ptr<const Inspection>> Baker::inspection(const project::Project& project, const JobContext& job,
+                                                            BakeReport* report) {
+  SWARD_TRY(project::requireValid(project));
+  SWARD_ASSIGN(std::vector<glm::dvec3> lights, scene::lightDirections(project.lights));
+  SWARD_ASSIGN(GroundKeys keys, groundKeys(project, lights));
+  Session session(project, std::move(lights), std::move(keys), job, m_impl->memory, m_impl->disk);
+  auto inspection = session.inspection();
+  if (report != nullptr) *report = session.takeReport();
+  return inspection;
+}
+
 }  // namespace sward::bake

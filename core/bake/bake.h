@@ -4,6 +4,7 @@
 #include "bake/ground_bake.h"
 #include "bake/quality.h"
 #include "base/hash.h"
+#include "bake/inspection.h"
 #include "base/job.h"
 #include "base/result.h"
 #include "project/project.h"
@@ -65,6 +66,10 @@ class Baker {
   Result<base::Hash128> key(const GroundRequest& request);
   /// Whether ground() would only have to look it up, in memory or on disk.
   bool holds(const base::Hash128& groundKey) const;
+  /// What Inspection shows of the same ground: asked for apart, since no picture needs it. After ground() of the same
+  /// project nothing is traced again.
+  Result<std::shared_ptr<const Inspection>> inspection(const project::Project& project, const JobContext& job,
+                                                       BakeReport* report = nullptr);
 
  private:
   struct Impl;

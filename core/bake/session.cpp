@@ -19,6 +19,16 @@ std::uint64_t bytesOf(const trace::LayerSurface& surface) {
 std::uint64_t bytesOf(const lpt::LayerStack& stack) {
   return stack.totalBytes();
 }
+std::uint64_t bytesOf(const Inspection& inspection) {
+  std::uint64_t bytes = 0;
+  const auto add = [&](const StackInspection& stack) {
+    bytes += stack.condition.size() + stack.rank.size() + stack.weight.size() * sizeof(float) + stack.visibility.size();
+  };
+  add(inspection.slices);
+  add(inspection.soil);
+  for (const StackInspection& blade : inspection.blades) add(blade);
+  return bytes;
+}
 std::uint64_t bytesOf(const scene::Patch& patch) {
   std::uint64_t bytes = patch.instances.size() * sizeof(scene::Instance);
   for (const auto& model : patch.models) bytes += model->positions.size() * 60 + model->triangles.size() * 16;
@@ -358,6 +368,34 @@ Result<GroundBake> Session::makeGround(const JobContext&) {
 Result<std::shared_ptr<const GroundBake>> Session::ground() {
   return node<GroundBake>("ground", "", m_keys.ground, Keep::MemoryAndDisk,
                           [&](const JobContext& job) { return makeGround(job); });
+}
+
+Result<Inspection> Session::makeInspection(const JobContext& job) {
+  Inspection made;
+  for (const LayerSet set : trace::kAllLayerSets) {
+    SWARD_ASSIGN(const auto found, hits(set));
+    SWARD_ASSIGN(const auto seen, visibility(set));
+    SWARD_ASSIGN(const auto fitted, fit(set));
+    const InspectedLayers layers{*found, *seen, *fitted};
+    if (set == LayerSet::Slices || set == LayerSet::Ground) {
+      SWARD_ASSIGN(const auto cut, tileSet());
+      (set == LayerSet::Slices ? made.slices : made.soil) = inspectTiles(layers, *cut, job);
+    } else {
+      made.blades[static_cast<std::size_t>(set) - static_cast<std::size_t>(LayerSet::BladesPosX)] =
+          inspectPatch(layers, job);
+    }
+  }
+  return made;
+}
+
+Result<std::shared_ptr<const Inspection>> Session::inspection() {
+  constexpr int kVersion = 1;
+  base::Hasher key;
+  key.add("inspection").add(kVersion).add(m_keys.tiles);
+  for (const SetKeys& set : m_keys.sets) key.add(set.fit).add(set.visibility);
+  planNode("inspection", "", 1.0);
+  return node<Inspection>("inspection", "", key.finish(), Keep::Memory,
+                          [&](const JobContext& job) { return makeInspection(job); });
 }
 
 BakeReport Session::takeReport() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bake/bake.h"
+#include "bake/inspection.h"
 #include "bake/keys.h"
 #include "bake/memory_cache.h"
 #include "bake/payload.h"
@@ -22,6 +23,7 @@ class Session {
           MemoryCache& memory, std::optional<DiskCache>& disk);
 
   Result<std::shared_ptr<const GroundBake>> ground();
+  Result<std::shared_ptr<const Inspection>> inspection();
   BakeReport takeReport();
 
  private:
@@ -65,6 +67,7 @@ class Session {
   Result<Shared<tiles::TileSet>> tileSet();
   Result<Shared<lpt::LayerStack>> stack(trace::LayerSet set);
   Result<GroundBake> makeGround(const JobContext& job);
+  Result<Inspection> makeInspection(const JobContext& job);
 
   const project::Project& m_project;
   std::vector<glm::dvec3> m_lights;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -29,15 +31,22 @@ inline std::uint8_t toByte(float encoded) {
 class SrgbBytes {
  public:
   SrgbBytes();
-  std::uint8_t operator()(float linear) const;
+  std::uint8_t operator()(float linear) const {
+    const float kept = linear > kDarkest ? (linear < kBrightest ? linear : kBrightest) : kDarkest;  // NaN is dark
+    const std::uint32_t cell = (std::bit_cast<std::uint32_t>(kept) - kFirst) >> (23 - kMantissaBits);
+    return static_cast<std::uint8_t>(m_byte[cell] + (kept >= m_threshold[cell] ? 1 : 0));
+  }
 
  private:
-  // Floats from 2^-13 on by exponent and eight bits of mantissa; steps of the curve are wider than these cells, so that
-  // each holds one threshold at most.
+  // Floats from 2^-13 to 1 by exponent and eight bits of mantissa; steps of the curve are wider than these cells, so
+  // that each holds one threshold at most. Below, the curve rounds to 0 (half a step is 1.5e-4).
   static constexpr int kMantissaBits = 8, kOctaves = 13;
   static constexpr int kCells = kOctaves << kMantissaBits;
-  float m_threshold[kCells];    ///< least float of the cell that is one byte brighter; 2 where none is
-  std::uint8_t m_byte[kCells];  ///< of the cell's first float
+  static constexpr float kDarkest = 0x1p-13f;
+  static constexpr float kBrightest = 0x1.fffffep-1f;
+  static constexpr std::uint32_t kFirst = std::bit_cast<std::uint32_t>(kDarkest);
+  std::array<float, kCells> m_threshold;    ///< least float of the cell that is one byte brighter; 2 where none is
+  std::array<std::uint8_t, kCells> m_byte;  ///< of the cell's first float
 };
 
 /// Made once for the process, when first asked for.

@@ -3,6 +3,7 @@
 #include "image/bytes.h"
 #include "image/image.h"
 #include "render/options.h"
+#include "render/view_mode.h"
 
 #include <span>
 
@@ -19,10 +20,18 @@ struct Columns {
 /// kept.
 image::Image toDisplay(const image::Image& linear, ViewTransform transform);
 
-/// The same in 8 bits, exactly the bytes that image::writePng makes of toDisplay's values, for `columns` of `out`,
-/// which has the picture's size; alpha 255. `rgba` are floats, rows from the bottom, each multiplied by `gain` first.
-/// On all threads.
-void toDisplayBytes(std::span<const float> rgba, float gain, ViewTransform transform, Columns columns,
+/// How a target's values become colours.
+struct DisplayLook {
+  ViewTransform transform = ViewTransform::Filmic;  ///< of the plain picture
+  ViewMode mode;
+  Legend legend;  ///< of the mode
+};
+
+/// The same in 8 bits, for `columns` of `out`, which has the picture's size; alpha 255. `rgba` are floats, rows from the
+/// bottom, each multiplied by `gain` first. The plain picture: exactly the bytes that image::writePng makes of
+/// toDisplay's values. View modes: RGB or (in R) the scalar, times alpha, the share of the pixel that is ground; the
+/// rest is backdrop. On all threads.
+void toDisplayBytes(std::span<const float> rgba, float gain, const DisplayLook& look, Columns columns,
                     image::ByteImage& out);
 
 }  // namespace sward::render

@@ -45,7 +45,10 @@ SliceRange sliceRange(const bake::GroundBake& ground, const RenderOptions& optio
 }
 
 /// Families of planes that a ray needs: the weights of shaders/ground/surface.glsl or blended.frag that are above 0.
-unsigned familiesOf(const glm::dvec3& d, const RenderOptions& options, const SliceRange& slicesAt) {
+/// One slice layer alone has no blades.
+unsigned familiesOf(const glm::dvec3& d, const Frame& frame, const SliceRange& slicesAt) {
+  const RenderOptions& options = frame.options;
+  if (frame.mode.layer >= 0) return kSlices;
   const double facing = std::abs(d.z);
   if (options.method != GroundMethod::March) return kSlices | (facing < cosTheta0(options) ? kBladesX | kBladesY : 0u);
   const double steep = smoothstep(slicesAt.from, slicesAt.all, facing);
@@ -163,13 +166,35 @@ void setSets(gpu::Program& program, const PassInput& input) {
   program.set("u_bladeBase", std::span<const unsigned>(bases));
 }
 
+/// Quantities are shown as they are.
+double exposureOf(const Frame& frame) {
+  const bool radiance = frame.mode.quantity == ViewQuantity::Shaded || frame.mode.quantity == ViewQuantity::Tiles;
+  return radiance ? frame.exposure : 1.0;
+}
+
+/// The axis of the ground that is nearest to up in the picture.
+glm::vec2 labelUp(const scene::Camera& camera) {
+  // Looking down, the picture's up lies on the ground; looking ahead, it is where the view goes.
+  const glm::dvec2 up = glm::dvec2(camera.forward) + glm::dvec2(camera.up);
+  if (std::abs(up.x) > std::abs(up.y)) return {up.x > 0.0 ? 1.0f : -1.0f, 0.0f};
+  return {0.0f, up.y < 0.0 ? -1.0f : 1.0f};
+}
+
+void setMode(gpu::Program& program, const Frame& frame, double weight) {
+  // Where it stands alone, a layer; and coefficients, of which the soil has others.
+  const bool soil = frame.mode.layer < 0 && frame.mode.quantity != ViewQuantity::Coefficient;
+  setIfUsed(program, "u_sampleWeight", static_cast<float>(weight));
+  setIfUsed(program, "u_soilWeight", soil ? 1.0f : 0.0f);
+  setIfUsed(program, "u_labelUp", labelUp(frame.camera));
+}
+
 void setLight(gpu::Program& program, const PassInput& input, const Frame& frame, double weight) {
   const SliceRange slicesAt = sliceRange(*input.ground, frame.options);
   setIfUsed(program, "u_slicesFrom", static_cast<float>(slicesAt.from));
   setIfUsed(program, "u_slicesAll", static_cast<float>(slicesAt.all));
   setIfUsed(program, "u_relightScale", static_cast<float>(input.relit->scale()));
   setIfUsed(program, "u_cosTheta0", static_cast<float>(cosTheta0(frame.options)));
-  setIfUsed(program, "u_exposure", static_cast<float>(frame.exposure * weight));
+  setIfUsed(program, "u_exposure", static_cast<float>(exposureOf(frame) * weight));
   setIfUsed(program, "u_hazePerM", static_cast<float>(input.hazePerM));
   setIfUsed(program, "u_sunDirection", glm::vec3(input.sunDirection));
   setIfUsed(program, "u_sunDisc", glm::vec3(input.sunIrradiance * kSunDiscGain));
@@ -206,7 +231,7 @@ BlockPlan planBlocks(const Frame& frame, const bake::GroundBake& ground, bool ha
         const glm::dvec3 d = frame.camera.rayDirection(px / frame.width, 1.0 - py / frame.height, aspect);
         if (d.z > -kHorizonMargin) needs |= BlockPlan::kSky;
         if (d.z >= 0.0 && !inside) continue;
-        const unsigned needed = hasBlades ? familiesOf(d, frame.options, slicesAt) : kSlices;
+        const unsigned needed = hasBlades ? familiesOf(d, frame, slicesAt) : kSlices;
         needs |= needed;
         plan.sets |= facingSets(d, needed);
         plan.sets.set(kSliceSet);  // slices, or the soil alone
@@ -223,7 +248,8 @@ GroundPass GroundPass::create() {
   return pass;
 }
 
-Result<gpu::Program*> GroundPass::variant(ProgramCache& programs, GroundMethod method, unsigned needs) const {
+Result<gpu::Program*> GroundPass::variant(ProgramCache& programs, const Frame& frame, unsigned needs) const {
+  const GroundMethod method = frame.options.method;
   if (needs == BlockPlan::kSky)
     return programs.blocks("ground/sky.frag", {}, {"t_blocks", "t_sky", "u_sunDisc", "u_exposure"});
   const std::string file = method == GroundMethod::March ? "ground/march.frag" : "ground/blended.frag";
@@ -231,9 +257,16 @@ Result<gpu::Program*> GroundPass::variant(ProgramCache& programs, GroundMethod m
                   {"SWARD_SKY", (needs & BlockPlan::kSky) != 0 ? "1" : "0"}};
   if (method != GroundMethod::March)
     defines.emplace_back("SWARD_PAPER_WEIGHTS", method == GroundMethod::BlendedPaper ? "1" : "0");
-  return programs.blocks(file, defines,
-                         {"t_blocks", "t_relit", "t_map", "t_horizon", "u_exposure", "u_eyeTiles", "u_heightM",
-                          "u_relightScale", "u_hazePerM", "u_mapOffset"});
+  std::vector<std::string> uniforms{"t_blocks",   "t_relit",   "t_map",          "u_exposure",
+                                    "u_eyeTiles", "u_heightM", "u_relightScale", "u_mapOffset"};
+  if (frame.mode.plain()) {
+    uniforms.insert(uniforms.end(), {"t_horizon", "u_hazePerM"});
+  } else {
+    const bool tiles = frame.mode.quantity == ViewQuantity::Tiles;
+    defines.emplace_back("SWARD_MODE", tiles ? "2" : "1");
+    uniforms.insert(uniforms.end(), {"u_sampleWeight", "u_soilWeight"});
+  }
+  return programs.blocks(file, defines, uniforms);
 }
 
 Result<void> GroundPass::draw(ProgramCache& programs, const PassInput& input, const Frame& frame, const BlockPlan& plan,
@@ -252,7 +285,11 @@ Result<void> GroundPass::draw(ProgramCache& programs, const PassInput& input, co
   for (unsigned needs = 0; needs < plan.blocks.size(); ++needs) {
     const std::size_t count = plan.blocks[needs].size();
     if (count == 0) continue;
-    SWARD_ASSIGN(gpu::Program * program, variant(programs, frame.options.method, needs));
+    if (needs == BlockPlan::kSky && !frame.mode.plain()) {
+      first += count;
+      continue;
+    }
+    SWARD_ASSIGN(gpu::Program * program, variant(programs, frame, needs));
     program->use();
     bindTextures(*program, input, m_blocksView);
     program->set("u_firstBlock", static_cast<int>(first));
@@ -262,6 +299,7 @@ Result<void> GroundPass::draw(ProgramCache& programs, const PassInput& input, co
     setPlace(*program, input, frame);
     setSets(*program, input);
     setLight(*program, input, frame, weight);
+    setMode(*program, frame, weight);
     gpu::gl().DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count));
     first += count;
   }

@@ -38,12 +38,13 @@ class GroundPass {
  public:
   static GroundPass create();
   /// One sample into the bound framebuffer, which has the frame's size. `weight` multiplies the radiance (with the
-  /// frame's exposure), sample 0 of 1 goes through pixel centres.
+  /// frame's exposure), sample 0 of 1 goes through pixel centres. View modes leave the sky as it is, and write how much
+  /// of a pixel is ground times `weight` into alpha.
   Result<void> draw(ProgramCache& programs, const PassInput& input, const Frame& frame, const BlockPlan& plan,
                     int sample, double weight);
 
  private:
-  Result<gpu::Program*> variant(ProgramCache& programs, GroundMethod method, unsigned needs) const;
+  Result<gpu::Program*> variant(ProgramCache& programs, const Frame& frame, unsigned needs) const;
   gpu::VertexArray m_vertices;
   gpu::Buffer m_blocks;
   gpu::Texture m_blocksView;

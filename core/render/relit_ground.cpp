@@ -1,5 +1,8 @@
 #include "render/relit_ground.h"
 
+#include "render/ground_check.h"
+#include "render/light_terms.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,8 +14,7 @@ namespace {
 constexpr float kOpaque = 0.985f;           ///< these two also in shaders/include/layout.glsl
 constexpr float kDepthRange = 4.19970508f;  ///< -ln(1 - kOpaque)
 constexpr int kLeastBladeRows = 16;         ///< blades keep a height profile of this many rows at every distance
-constexpr int kMaxMapSide = 3900;
-constexpr int kGroup = 8;  ///< invocations along a side of a work group, as in the shaders
+constexpr int kGroup = 8;                   ///< invocations along a side of a work group, as in the shaders
 /// A fit may overshoot the response's bound of 1; texels brighter than the scale are cut off.
 constexpr double kHeadroom = 1.15;
 
@@ -32,103 +34,10 @@ float brightest(const std::vector<std::uint8_t>& rgba) {
   return root * root;
 }
 
-Error misfit(const std::string& what) {
-  return Error::badInput("the baked ground does not fit together: " + what, "ground", "Bake it again.");
-}
-
-Result<void> checkStack(const lpt::LayerStack& stack, const std::string& name) {
-  const std::size_t perItem = static_cast<std::size_t>(stack.perColumn() * stack.channels);
-  const std::size_t items = stack.basis == lpt::Basis::Lpt ? stack.columnCount() : stack.texelCount();
-  const std::size_t texels = stack.texelCount();
-  if (stack.bits != 8 && stack.bits != 16) return misfit(name + " has " + std::to_string(stack.bits) + " bits");
-  if (stack.channels < 1 || stack.channels > 2) return misfit(name + " has a wrong number of channels");
-  if (texels == 0 || stack.layers < 1) return misfit(name + " is empty");
-  if (stack.coefficients.size() != items * perItem * static_cast<std::size_t>(stack.bits / 8) ||
-      stack.ranges.size() != perItem || stack.surface.size() != texels * 4 || stack.sky.size() != texels * 2 ||
-      (!stack.transmission.empty() && stack.transmission.size() != texels * 4))
-    return misfit(name + " has arrays of the wrong size");
-  return {};
-}
-
-Result<void> checkSlices(const bake::GroundBake& ground) {
-  SWARD_TRY(checkStack(ground.slices, "slices"));
-  SWARD_TRY(checkStack(ground.soil, "soil"));
-  const int tiles = static_cast<int>(ground.tiles.tiles.size());
-  if (tiles < 1 || tiles > 255) return misfit("there are " + std::to_string(tiles) + " tiles");
-  for (const lpt::LayerStack* stack : {&ground.slices, &ground.soil})
-    if (stack->width != ground.tiles.side() || stack->height != ground.tiles.side() || stack->images != tiles)
-      return misfit("tiles have other sizes than their layers");
-  if (ground.soil.layers != 1) return misfit("the soil has several layers");
-  if (ground.tiles.resolution < 2 || ground.tiles.resolution % 2 != 0) return misfit("a tile has an odd side");
-  const tiles::TileMap& map = ground.map;
-  // Shaders count the map's words, borders and all, in floats, which are exact up to 2^24.
-  if (map.width < 1 || map.height < 1 || map.width > kMaxMapSide || map.height > kMaxMapSide ||
-      map.tiles.size() != static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height))
-    return misfit("the tile map is empty or longer than " + std::to_string(kMaxMapSide) + " cells");
-  if (std::any_of(map.tiles.begin(), map.tiles.end(), [&](std::uint8_t tile) { return tile >= tiles; }))
-    return misfit("the tile map names a tile that is not there");
-  return {};
-}
-
-Result<void> checkBlades(const bake::GroundBake& ground) {
-  const tiles::TileSet& set = ground.tiles;
-  const int blades = ground.bladesPerPatch;
-  if (blades < 1 || set.patchResolution < 1 || set.patchResolution % blades != 0)
-    return misfit("blade slabs do not divide the patch");
-  const int slabTexels = set.patchResolution / blades;
-  if (set.resolution % slabTexels != 0) return misfit("blade slabs do not divide a tile");
-  const lpt::LayerStack& first = ground.blades[0];
-  for (const lpt::LayerStack& side : ground.blades) {
-    SWARD_TRY(checkStack(side, "blades"));
-    if (side.images != 1 || side.layers != blades || side.width != first.width || side.height != first.height)
-      return misfit("blade sets have different sizes");
-  }
-  if (first.width % set.patchResolution != 0 || first.width % 2 != 0)
-    return misfit("blade texels are no multiple of slice texels");
-  const std::size_t owners = 2 * set.tiles.size() * static_cast<std::size_t>(set.resolution / slabTexels) *
-                             static_cast<std::size_t>(set.resolution);
-  if (ground.bladeOwners.size() != owners) return misfit("blade owners are missing");
-  for (const tiles::BladeOwner& owner : ground.bladeOwners)
-    if (owner.slab >= blades || owner.position >= set.patchResolution) return misfit("a blade owner is off the patch");
-  return {};
-}
-
-bool bladesPresent(const bake::GroundBake& ground) {
-  return !ground.blades[0].surface.empty();
-}
-
-/// Weights of the quantised coefficients and the constants that their bases add, so that A, B and C of a column are
-/// constant + sum of weight times byte: b = q / scale - base, times the light's functions (equation 5).
-struct LightTerms {
-  std::array<float, 20> weights{};
-  std::array<float, 6> constants{};
-};
-
-LightTerms lightTerms(lpt::Basis basis, int channels, std::span<const lpt::CoefficientRange> ranges,
-                      const glm::dvec3& light) {
-  const double x = light.x, y = light.y;
-  const std::array<double, 10> lptFunctions{x * x,   y * y,   1.0,     2.0 * x * y, 2.0 * x,
-                                            2.0 * y, 2.0 * x, 2.0 * y, 2.0,         1.0};
-  // Which of A, B, C a coefficient goes to: b2 is C, b4, b5, b8 make B.
-  constexpr std::array<int, 10> lptTerm{0, 0, 2, 0, 1, 1, 0, 0, 1, 0};
-  const std::array<double, 6> ptmFunctions{x * x, y * y, 2.0 * x * y, 2.0 * x, 2.0 * y, 1.0};
-  const int count = basis == lpt::Basis::Lpt ? 10 : 6;
-  LightTerms terms;
-  std::array<double, 6> constants{};
-  for (int c = 0; c < channels; ++c) {
-    for (int j = 0; j < count; ++j) {
-      const auto at = static_cast<std::size_t>(j);
-      const lpt::CoefficientRange& range = ranges[static_cast<std::size_t>(c * count + j)];
-      const double function = basis == lpt::Basis::Lpt ? lptFunctions[at] : ptmFunctions[at];
-      const int term = basis == lpt::Basis::Lpt ? lptTerm[at] : 0;
-      if (range.scale > 0.0f)
-        terms.weights[static_cast<std::size_t>(c * 10 + j)] =
-            static_cast<float>(function / static_cast<double>(range.scale));
-      constants[static_cast<std::size_t>(c * 3 + term)] -= function * static_cast<double>(range.base);
-    }
-  }
-  for (std::size_t i = 0; i < constants.size(); ++i) terms.constants[i] = static_cast<float>(constants[i]);
-  return terms;
+/// SWARD_QUANTITY of shaders/include/quantity.glsl.
+std::string quantityDefine(const ViewMode& mode) {
+  constexpr int kShadedLayer = 8;
+  return std::to_string(mode.quantity == ViewQuantity::Shaded ? kShadedLayer : static_cast<int>(mode.quantity));
 }
 
 void barrier() {
@@ -168,9 +77,8 @@ struct RelitGround::Target {
 };
 
 Result<RelitGround> RelitGround::create(const bake::GroundBake& ground) {
-  SWARD_TRY(checkSlices(ground));
+  SWARD_TRY(checkGround(ground));
   const bool blades = bladesPresent(ground);
-  if (blades) SWARD_TRY(checkBlades(ground));
   RelitGround out;
   out.m_tiles = static_cast<int>(ground.tiles.tiles.size());
   out.m_apron = ground.tiles.apron;
@@ -227,6 +135,42 @@ void RelitGround::setIllumination(const lpt::Illumination& light) {
   m_fresh.reset();
 }
 
+Result<void> RelitGround::setMode(const ViewMode& mode, const bake::GroundBake& ground) {
+  SWARD_TRY(checkMode(mode, ground));
+  if (mode.needsInspection() && !m_inspected)
+    return Error::failed("this ground was baked without an inspection", "view mode",
+                         "Bake one, or choose another view mode.");
+  if (mode == m_mode) return {};
+  m_mode = mode;
+  m_scaled = mode.quantity == ViewQuantity::Shaded || mode.quantity == ViewQuantity::Tiles;
+  m_coefficientRange =
+      mode.quantity == ViewQuantity::Coefficient ? coefficientRange(ground, mode.channel, mode.coefficient) : 1.0;
+  m_fresh.reset();
+  return {};
+}
+
+Result<void> RelitGround::setInspection(const bake::Inspection& inspection) {
+  std::vector<const bake::StackInspection*> inspected{&inspection.slices, &inspection.soil};
+  for (const bake::StackInspection& blade : inspection.blades) inspected.push_back(&blade);
+  for (std::size_t i = 0; i < m_stacks.size(); ++i) {
+    const auto columns = static_cast<std::size_t>(m_stacks[i].width) * static_cast<std::size_t>(m_stacks[i].height) *
+                         static_cast<std::size_t>(m_stacks[i].images);
+    const std::size_t texels = columns * static_cast<std::size_t>(m_stacks[i].layers);
+    if (inspected[i]->condition.size() != columns || inspected[i]->visibility.size() != texels)
+      return Error::badInput("the inspection is of another ground", "view mode", "Bake it again.");
+  }
+  for (std::size_t i = 0; i < m_stacks.size(); ++i) {
+    Stack& stack = m_stacks[i];
+    stack.condition = gpu::Buffer(bytesOf(inspected[i]->condition));
+    stack.visibility = gpu::Buffer(bytesOf(inspected[i]->visibility));
+    stack.conditionView = gpu::Texture::ofBuffer(GL_R32UI, stack.condition);
+    stack.visibilityView = gpu::Texture::ofBuffer(GL_R32UI, stack.visibility);
+  }
+  m_inspected = true;
+  if (m_mode.needsInspection()) m_fresh.reset();
+  return {};
+}
+
 Result<void> RelitGround::relight(ProgramCache& programs, SetMask sets) {
   sets &= ~m_fresh;
   if (!hasBlades()) sets &= SetMask(1);
@@ -252,7 +196,10 @@ Result<void> RelitGround::relightBlades(ProgramCache& programs, std::size_t side
   const glm::ivec2 patchSize(stack.width, stack.height);
   SWARD_TRY(relightStack(programs, stack, {m_patch.name(), patchSize, 0, stack.layers, 0, 0, 0}));
   barrier();
-  SWARD_ASSIGN(gpu::Program * program, programs.compute("relight/bind_blades.comp", {}, {"u_patchSize", "u_outBase"}));
+  Defines defines;
+  if (m_mode.quantity == ViewQuantity::Tiles) defines.emplace_back("SWARD_QUANTITY", quantityDefine(m_mode));
+  SWARD_ASSIGN(gpu::Program * program,
+               programs.compute("relight/bind_blades.comp", defines, {"u_patchSize", "u_outBase"}));
   const glm::ivec2 outSize(m_bladeLayout.width, m_bladeLayout.height);
   program->use();
   program->set("t_patch", 0);
@@ -262,6 +209,7 @@ Result<void> RelitGround::relightBlades(ProgramCache& programs, std::size_t side
   program->set("u_patchSize", patchSize);
   program->set("u_outSize", outSize);
   program->set("u_slabs", m_patchSlabs);
+  setIfUsed(*program, "u_tileSlabs", m_slabs);
   program->set("u_reversed", side % 2 == 0 ? 1 : 0);  // seen from +x or +y: layer 0 is the last slab
   program->set("u_ownerTexels", m_tileTexels);
   program->set("u_texelsPerOwner", outSize.x / m_tileTexels);
@@ -272,30 +220,59 @@ Result<void> RelitGround::relightBlades(ProgramCache& programs, std::size_t side
   return makeMips(programs, side + 1, 1);
 }
 
+LightTerms RelitGround::termsOf(const Stack& stack) const {
+  if (m_mode.quantity == ViewQuantity::Luminance && !(m_light.sunDirection.z >= 0.0)) return {};
+  if (m_mode.quantity != ViewQuantity::Coefficient)
+    return lightTerms(stack.basis, stack.channels, stack.ranges, m_light.sunDirection);
+  const int channel = static_cast<int>(m_mode.channel);
+  // The soil has other coefficients than grass, and is not shown.
+  if (&stack == &m_stacks[1]) return {};
+  return coefficientTerms(stack.basis, stack.ranges, channel, m_mode.coefficient, m_coefficientRange);
+}
+
+/// What the variants of relight.comp for view modes need beside the rest.
+void RelitGround::setQuantity(gpu::Program& program, const Stack& stack, bool slices) const {
+  setIfUsed(program, "u_onlyLayer", slices && &stack != &m_stacks[1] ? m_mode.layer : -1);
+  setIfUsed(program, "u_soil", &stack == &m_stacks[1] ? 1 : 0);
+  setIfUsed(program, "u_channel", static_cast<int>(m_mode.channel));
+  setIfUsed(program, "t_inspection", 4);
+  if (!m_mode.needsInspection()) return;
+  (m_mode.quantity == ViewQuantity::Condition ? stack.conditionView : stack.visibilityView).bind(4);
+}
+
 Result<void> RelitGround::relightStack(ProgramCache& programs, const Stack& stack, const Target& target) {
   const bool withMip = target.base1 != 0;
+  const bool slices = &stack == &m_stacks[0] || &stack == &m_stacks[1];
   const int block = withMip ? 2 : 1;
-  const Defines defines{{"SWARD_LPT", stack.basis == lpt::Basis::Lpt ? "1" : "0"},
-                        {"SWARD_CHANNELS", std::to_string(stack.channels)},
-                        {"SWARD_BITS", std::to_string(stack.bits)},
-                        {"SWARD_TRANSMISSION", stack.transmits ? "1" : "0"},
-                        {"SWARD_BLOCK", std::to_string(block)}};
-  SWARD_ASSIGN(gpu::Program * program,
-               programs.compute("relight/relight.comp", defines, {"t_coefficients", "t_surface", "t_sky", "u_sun"}));
-  const LightTerms terms = lightTerms(stack.basis, stack.channels, stack.ranges, m_light.sunDirection);
+  Defines defines{{"SWARD_LPT", stack.basis == lpt::Basis::Lpt ? "1" : "0"},
+                  {"SWARD_CHANNELS", std::to_string(stack.channels)},
+                  {"SWARD_BITS", std::to_string(stack.bits)},
+                  {"SWARD_TRANSMISSION", stack.transmits ? "1" : "0"},
+                  {"SWARD_BLOCK", std::to_string(block)}};
+  std::vector<std::string> uniforms{"t_surface", "u_outBase"};
+  if (m_mode.plain()) {
+    uniforms.insert(uniforms.end(), {"t_coefficients", "t_sky", "u_sun"});
+  } else {
+    defines.emplace_back("SWARD_QUANTITY", quantityDefine(m_mode));
+    defines.emplace_back("SWARD_TINT", slices ? "1" : "0");
+    uniforms.emplace_back("u_onlyLayer");
+  }
+  SWARD_ASSIGN(gpu::Program * program, programs.compute("relight/relight.comp", defines, uniforms));
+  const LightTerms terms = termsOf(stack);
   program->use();
-  program->set("t_coefficients", 0);
+  setIfUsed(*program, "t_coefficients", 0);
   program->set("t_surface", 1);
-  program->set("t_sky", 2);
+  setIfUsed(*program, "t_sky", 2);
   setIfUsed(*program, "t_transmission", 3);
+  setQuantity(*program, stack, slices);
   stack.coefficientsView.bind(0);
   stack.surfaceView.bind(1);
   stack.skyView.bind(2);
   stack.transmissionView.bind(3);
-  program->set("u_weights", std::span<const float>(terms.weights));
-  program->set("u_constants", std::span<const float>(terms.constants));
-  program->set("u_sun", glm::vec3(m_light.sunIrradiance / std::numbers::pi / m_scale));
-  program->set("u_skyLight", glm::vec3(m_light.skyRadiance / m_scale));
+  setIfUsed(*program, "u_weights", std::span<const float>(terms.weights));
+  setIfUsed(*program, "u_constants", std::span<const float>(terms.constants));
+  setIfUsed(*program, "u_sun", glm::vec3(m_light.sunIrradiance / std::numbers::pi / m_scale));
+  setIfUsed(*program, "u_skyLight", glm::vec3(m_light.skyRadiance / m_scale));
   program->set("u_stackSize", glm::ivec2(stack.width, stack.height));
   program->set("u_outSize", target.size);
   program->set("u_apron", target.apron);

@@ -3,8 +3,11 @@
 #include "bake/ground_bake.h"
 #include "base/result.h"
 #include "gpu/objects.h"
+#include "bake/inspection.h"
+#include "render/light_terms.h"
 #include "render/programs.h"
 #include "render/relit_layout.h"
+#include "render/view_mode.h"
 
 #include <array>
 #include <bitset>
@@ -28,6 +31,11 @@ class RelitGround {
 
   /// The light that the next relight() uses; relit sets become stale when it differs.
   void setIllumination(const lpt::Illumination& light);
+  /// What texels hold after the next relight(): radiance, or a view mode's quantity. Errors: a mode whose inspection is
+  /// missing, or that `ground`, the one that was uploaded, has not.
+  Result<void> setMode(const ViewMode& mode, const bake::GroundBake& ground);
+  /// Uploads what Visibility and Condition show. Errors: it does not fit the ground.
+  Result<void> setInspection(const bake::Inspection& inspection);
   /// Relights those of `sets` that are stale (slices and soil go together), their mips and means.
   Result<void> relight(ProgramCache& programs, SetMask sets);
   void invalidate() { m_fresh.reset(); }
@@ -38,7 +46,7 @@ class RelitGround {
   int tiles() const { return m_tiles; }
   int slabsOfTile() const { return m_slabs; }
   bool hasBlades() const { return m_slabs > 0; }
-  double scale() const { return m_scale; }
+  double scale() const { return m_scaled ? m_scale : 1.0; }
   /// One plane of a relit set as the GPU holds it, decoded: straight radiance over scale(), coverage.
   std::vector<glm::vec4> readPlane(std::size_t set, int plane, int level) const;
 
@@ -51,11 +59,15 @@ class RelitGround {
     std::vector<lpt::CoefficientRange> ranges;
     gpu::Buffer coefficients, surface, transmission, sky;
     gpu::Texture coefficientsView, surfaceView, transmissionView, skyView;
+    gpu::Buffer condition, visibility;  ///< of an inspection
+    gpu::Texture conditionView, visibilityView;
     bool transmits = false;
   };
   struct Target;
 
   Result<void> relightStack(ProgramCache& programs, const Stack& stack, const Target& target);
+  LightTerms termsOf(const Stack& stack) const;
+  void setQuantity(gpu::Program& program, const Stack& stack, bool slices) const;
   Result<void> relightSlices(ProgramCache& programs);
   Result<void> relightBlades(ProgramCache& programs, std::size_t side);
   Result<void> makeMips(ProgramCache& programs, std::size_t set, int firstLevel);
@@ -69,6 +81,10 @@ class RelitGround {
   float m_brightest = 1.0f;  ///< largest reflectance or transmittance of all stacks
   lpt::Illumination m_light;
   double m_scale = 1.0;
+  ViewMode m_mode;
+  bool m_scaled = true;             ///< texels hold radiance over m_scale, no quantity
+  double m_coefficientRange = 1.0;  ///< that m_mode shows from end to end
+  bool m_inspected = false;
   SetMask m_fresh;
 };
 

@@ -44,19 +44,22 @@ struct Drawing::Impl {
   BlockPlan plan;
   gpu::Texture target;
   gpu::Framebuffer framebuffer;
+  Legend legend;  ///< of the frame's mode
   int drawn = 0;
   std::uint64_t revision = 0;  ///< of the renderer's ground and light when it was begun
 
   /// From the sum of weighted samples to their mean: exactly 1 once all are drawn.
   float gain() const { return static_cast<float>(frame.options.samples) / static_cast<float>(std::max(drawn, 1)); }
 
-  /// RGBA, rows from the bottom, as the driver holds it: any other order makes drivers convert pixel by pixel.
-  std::vector<float> read() const {
-    std::vector<float> rgba(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height) * 4);
+  /// RGBA, rows from the bottom, as the driver holds it: any other order makes drivers convert pixel by pixel. The
+  /// result lives in `pixels`.
+  std::span<const float> read(std::vector<float>& pixels) const {
+    const std::size_t count = static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height) * 4;
+    if (pixels.size() < count) pixels.resize(count);
     gpu::gl().PixelStorei(GL_PACK_ALIGNMENT, 4);
-    gpu::gl().GetTextureImage(target.name(), 0, GL_RGBA, GL_FLOAT, static_cast<GLsizei>(rgba.size() * sizeof(float)),
-                              rgba.data());
-    return rgba;
+    gpu::gl().GetTextureImage(target.name(), 0, GL_RGBA, GL_FLOAT, static_cast<GLsizei>(count * sizeof(float)),
+                              pixels.data());
+    return std::span(pixels).first(count);
   }
 };
 
@@ -88,6 +91,7 @@ struct Renderer::Impl {
   gpu::Texture map, sky, horizon;
   std::optional<MacroSettings> macro;  ///< what mapWords was made with
   Drawing whole;                       ///< of drawLinear and its like
+  std::vector<float> pixels;           ///< what was read last: large, and asked for again and again
   std::shared_ptr<const bake::GroundBake> ground;
   std::optional<RelitGround> relit;
   std::optional<scene::Daylight> daylight;
@@ -143,12 +147,14 @@ struct Renderer::Impl {
     drawing.frame = frame;
     SWARD_TRY(makeTarget(drawing));
     drawing.plan = planBlocks(frame, *ground, relit->hasBlades());
+    SWARD_TRY(relit->setMode(frame.mode, *ground));
     SWARD_TRY(relit->relight(programs, drawing.plan.sets));
     makeMap(frame.options);
-    if (frame.options.samples > 1 || frame.columns) {
+    if (frame.options.samples > 1 || frame.columns || !frame.mode.plain()) {
       constexpr float kBlack[4] = {};
       gpu::gl().ClearNamedFramebufferfv(drawing.framebuffer.name(), GL_COLOR, 0, kBlack);
     }
+    drawing.legend = legendOf(frame.mode, *ground);
     drawing.drawn = 0;
     drawing.revision = revision;
     return context.checkErrors("relighting");
@@ -160,6 +166,9 @@ struct Renderer::Impl {
     if (drawing.revision != revision) return Error::failed("ground or light changed within a picture", "render");
     SWARD_TRY(ready());
     const Columns columns = drawing.frame.drawn();
+    // Another picture may have been begun in between, in another mode.
+    SWARD_TRY(relit->setMode(drawing.frame.mode, *ground));
+    SWARD_TRY(relit->relight(programs, drawing.plan.sets));
     drawing.framebuffer.bind();
     if (samples > 1) {
       gpu::gl().BlendFunc(GL_ONE, GL_ONE);
@@ -215,6 +224,15 @@ Result<void> Renderer::setGround(std::shared_ptr<const bake::GroundBake> ground)
   return {};
 }
 
+Result<void> Renderer::setInspection(const bake::Inspection& inspection) {
+  Impl& impl = *m_impl;
+  SWARD_TRY(impl.context.makeCurrent());
+  if (!impl.relit) return Error::failed("no ground was given to the renderer", "render");
+  SWARD_TRY(impl.relit->setInspection(inspection));
+  ++impl.revision;
+  return impl.context.checkErrors("uploading the inspection");
+}
+
 void Renderer::setDaylight(const scene::Daylight& daylight, double hazeKm) {
   Impl& impl = *m_impl;
   if (!impl.context.makeCurrent().ok()) return;
@@ -237,7 +255,7 @@ Result<void> Renderer::addSample(Drawing& drawing) {
 
 Result<image::Image> Renderer::readLinear(const Drawing& drawing) {
   SWARD_TRY(m_impl->readable(*drawing.m_impl));
-  const std::vector<float> rgba = drawing.m_impl->read();
+  const std::span<const float> rgba = drawing.m_impl->read(m_impl->pixels);
   const float gain = drawing.m_impl->gain();
   image::Image out(drawing.width(), drawing.height(), 3);
   const auto row = static_cast<std::size_t>(out.width);
@@ -251,17 +269,27 @@ Result<image::Image> Renderer::readLinear(const Drawing& drawing) {
 }
 
 Result<image::Image> Renderer::readDisplay(const Drawing& drawing) {
-  SWARD_ASSIGN(const image::Image linear, readLinear(drawing));
-  return toDisplay(linear, drawing.m_impl->frame.options.viewTransform);
+  const Frame& frame = drawing.m_impl->frame;
+  if (frame.mode.plain()) {
+    SWARD_ASSIGN(const image::Image linear, readLinear(drawing));
+    return toDisplay(linear, frame.options.viewTransform);
+  }
+  image::ByteImage bytes;
+  SWARD_TRY(readBytes(drawing, bytes));
+  image::Image out(bytes.width, bytes.height, 3);
+  for (std::size_t i = 0; i < out.pixels.size(); ++i)
+    out.pixels[i] = static_cast<float>(bytes.rgba[i / 3 * 4 + i % 3]) / 255.0f;
+  return out;
 }
 
 Result<void> Renderer::readBytes(const Drawing& drawing, image::ByteImage& out) {
   SWARD_TRY(m_impl->readable(*drawing.m_impl));
   const Drawing::Impl& impl = *drawing.m_impl;
-  const std::vector<float> rgba = impl.read();
+  const std::span<const float> rgba = impl.read(m_impl->pixels);
   if (out.width != impl.frame.width || out.height != impl.frame.height)
     out = {impl.frame.width, impl.frame.height, std::vector<std::uint8_t>(rgba.size())};
-  toDisplayBytes(rgba, impl.gain(), impl.frame.options.viewTransform, impl.frame.drawn(), out);
+  const DisplayLook look{impl.frame.options.viewTransform, impl.frame.mode, impl.legend};
+  toDisplayBytes(rgba, impl.gain(), look, impl.frame.drawn(), out);
   return {};
 }
 

@@ -1,12 +1,14 @@
 #pragma once
 
 #include "bake/ground_bake.h"
+#include "bake/inspection.h"
 #include "base/result.h"
 #include "gpu/context.h"
 #include "image/bytes.h"
 #include "image/image.h"
 #include "render/display.h"
 #include "render/options.h"
+#include "render/view_mode.h"
 #include "scene/camera.h"
 #include "scene/sun_sky.h"
 
@@ -23,6 +25,7 @@ struct Frame {
   int width = 1280, height = 720;
   double exposure = 1.0;  ///< multiplies linear radiance before the view transform
   RenderOptions options;
+  ViewMode mode;
   /// Only these columns are drawn, the rest stays black: one side of a split picture. Nothing: all.
   std::optional<Columns> columns;
 
@@ -59,6 +62,9 @@ class Renderer {
 
   /// Uploads a bake; replaces the one before. An error when the GPU has no room.
   Result<void> setGround(std::shared_ptr<const bake::GroundBake> ground);
+  /// What the view modes Visibility and Condition show of the ground; the next setGround() forgets it. Errors: it
+  /// belongs to another ground.
+  Result<void> setInspection(const bake::Inspection& inspection);
   /// Takes a new light; what a picture reads is relit when it is drawn, if the light differs from the last. `hazeKm`:
   /// distance at which aerial perspective hides 63 % (scene::SkyOptions); 0: none.
   void setDaylight(const scene::Daylight& daylight, double hazeKm = 12.0);
@@ -67,7 +73,8 @@ class Renderer {
   Result<void> begin(Drawing& drawing, const Frame& frame);
   /// Draws the next sample. Errors: all are drawn; ground or light have changed since begin().
   Result<void> addSample(Drawing& drawing);
-  /// The mean of the samples drawn so far, as drawLinear() and drawDisplay() give it; the same bytes once complete.
+  /// The mean of the samples drawn so far, as drawLinear() and drawDisplay() give it; the same bytes once complete. In
+  /// a view mode linear values are the quantity times the share of the pixel that is ground, over black.
   Result<image::Image> readLinear(const Drawing& drawing);
   Result<image::Image> readDisplay(const Drawing& drawing);
   /// The same in 8 bits, the bytes that image::writePng makes of readDisplay(), for the columns that the frame draws;

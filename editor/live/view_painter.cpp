@@ -19,6 +19,7 @@ Result<void> checkRequest(const ViewRequest& request) {
 /// What the project's own picture of a request is; a moving one has half the size and one sample.
 Result<render::Frame> frameOf(const ViewRequest& request, const scene::Daylight& daylight) {
   SWARD_ASSIGN(render::Frame frame, render::planFrame(*request.project, request.view, daylight));
+  frame.mode = request.mode;
   frame.width = request.width;
   frame.height = request.height;
   if (request.moving) {
@@ -80,14 +81,20 @@ Result<void> ViewPainter::light(const project::Project& project) {
   return {};
 }
 
-Result<void> ViewPainter::prepare(Bench& bench, const std::shared_ptr<const bake::GroundBake>& ground) {
+Result<void> ViewPainter::prepare(Bench& bench, const std::shared_ptr<const bake::GroundBake>& ground,
+                                  const std::shared_ptr<const bake::Inspection>& inspection) {
   if (!bench.renderer) {
     SWARD_ASSIGN(bench.renderer, render::Renderer::create(*m_context));
   }
   if (bench.ground != ground) {
     bench.ground.reset();
+    bench.inspection.reset();
     SWARD_TRY(bench.renderer->setGround(ground));
     bench.ground = ground;
+  }
+  if (inspection && bench.inspection != inspection) {
+    SWARD_TRY(bench.renderer->setInspection(*inspection));
+    bench.inspection = inspection;
   }
   if (!std::exchange(bench.lit, true)) bench.renderer->setDaylight(*m_daylight, m_sky.hazeKm);
   return {};
@@ -103,7 +110,7 @@ Result<void> ViewPainter::beginSides(const ViewRequest& request, const render::F
       other.columns = render::Columns{split, frame.width};
     }
   }
-  SWARD_TRY(prepare(m_benches[0], request.ground));
+  SWARD_TRY(prepare(m_benches[0], request.ground, request.inspection));
   m_sides[0].renderer = m_benches[0].renderer.get();
   SWARD_TRY(m_sides[0].renderer->begin(m_sides[0].drawing, own));
   if (!m_comparison) {
@@ -113,7 +120,7 @@ Result<void> ViewPainter::beginSides(const ViewRequest& request, const render::F
     return {};
   }
   const bool another = m_comparison->ground && m_comparison->ground != request.ground;
-  if (another) SWARD_TRY(prepare(m_benches[1], m_comparison->ground));
+  if (another) SWARD_TRY(prepare(m_benches[1], m_comparison->ground, m_comparison->inspection));
   m_sides[1].renderer = m_benches[another ? 1 : 0].renderer.get();
   return m_sides[1].renderer->begin(m_sides[1].drawing, other);
 }

@@ -35,6 +35,7 @@ class ViewPainter {
   struct Bench {
     std::unique_ptr<render::Renderer> renderer;
     std::shared_ptr<const bake::GroundBake> ground;
+    std::shared_ptr<const bake::Inspection> inspection;
     bool lit = false;  ///< with m_daylight
   };
   /// The project's own picture, or the other one of a comparison.
@@ -46,7 +47,8 @@ class ViewPainter {
 
   Result<void> open();
   Result<void> light(const project::Project& project);
-  Result<void> prepare(Bench& bench, const std::shared_ptr<const bake::GroundBake>& ground);
+  Result<void> prepare(Bench& bench, const std::shared_ptr<const bake::GroundBake>& ground,
+                       const std::shared_ptr<const bake::Inspection>& inspection);
   Result<void> beginSides(const ViewRequest& request, const render::Frame& frame);
 
   gpu::Device m_device;

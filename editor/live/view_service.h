@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bake/ground_bake.h"
+#include "bake/inspection.h"
 #include "base/result.h"
 #include "gpu/context.h"
 #include "project/project.h"
@@ -28,6 +29,7 @@ struct Comparison {
   render::GroundMethod method{};  ///< of the other picture
   /// A bake of another basis for the other picture; none: the same ground drawn by the other method.
   std::shared_ptr<const bake::GroundBake> ground;
+  std::shared_ptr<const bake::Inspection> inspection;  ///< of that ground, where the view mode needs one
   double differenceGain = 4.0;
 };
 
@@ -35,6 +37,8 @@ struct Comparison {
 struct ViewRequest {
   std::shared_ptr<const project::Project> project;
   std::shared_ptr<const bake::GroundBake> ground;
+  /// Of `ground`, for the view modes that need one (ViewMode::needsInspection()); may be empty otherwise.
+  std::shared_ptr<const bake::Inspection> inspection;
   scene::View view;
   int width = 1280, height = 720;
   render::ViewMode mode;

@@ -1,5 +1,10 @@
 // All constants of the ground's look in one place. core/render/ground_pass.cpp repeats those marked (C++).
 
+// What is drawn: 0 the picture, 1 and 2 a view mode (ground/finish_mode.glsl).
+#ifndef SWARD_MODE
+#define SWARD_MODE 0
+#endif
+
 const float kTransmittanceEnd = 0.04;  // a ray with less left is opaque
 const int kLotPixels = 2;           // side of the squares of pixels that draw lots between families together
 const int kMaxSteps = 160;           // planes that a ray may cross

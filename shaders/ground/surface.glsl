@@ -174,6 +174,9 @@ vec3 throughHaze(vec3 radiance, vec3 d, float distanceM, float random) {
   return mix(horizon, radiance, clear);
 }
 
+#if SWARD_MODE
+#include "ground/finish_mode.glsl"
+#else
 // The picture of a ray that gathered `radiance` (over the relight scale) in the shell and has `left` of its
 // transmittance: soil or sky behind, macro variation, haze, exposure.
 vec4 finishGround(Walk walk, vec3 d, vec3 radiance, float left, Level soilLevel, vec3 random) {
@@ -194,3 +197,4 @@ vec4 finishGround(Walk walk, vec3 d, vec3 radiance, float left, Level soilLevel,
 #endif
   return vec4(seen * u_exposure, 1.0);
 }
+#endif

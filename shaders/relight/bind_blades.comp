@@ -1,5 +1,8 @@
 // Copies the relit blades of the patch to the tiles: each tile's slabs show the patch slab and place that their owner
 // map names (tiles::bladeOwners).
+#include "include/layout.glsl"
+#include "include/quantity.glsl"
+
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 0) writeonly buffer Relit { uint b_relit[]; };
 uniform usamplerBuffer t_patch;   // [layer][row][column]
@@ -13,6 +16,9 @@ uniform int u_ownerTexels;   // slice texels along a tile's side
 uniform int u_texelsPerOwner;  // blade texels in one slice texel
 uniform int u_outBase;
 uniform int u_ownerBase;     // where the axis' owners start
+#if SWARD_QUANTITY == SWARD_TILES
+uniform int u_tileSlabs;     // of a tile
+#endif
 
 void main() {
   ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
@@ -24,5 +30,9 @@ void main() {
   int column = int(owner >> 16) * u_texelsPerOwner + texel.x - along * u_texelsPerOwner;
   int layer = u_reversed == 1 ? u_slabs - 1 - slab : slab;
   uint value = texelFetch(t_patch, (layer * u_patchSize.y + texel.y) * u_patchSize.x + column).r;
+#if SWARD_QUANTITY == SWARD_TILES
+  vec4 relit = decodeRelit(value);
+  value = encodeRelit(relit.rgb * tileColour(plane / u_tileSlabs), relit.a);
+#endif
   b_relit[u_outBase + (plane * u_outSize.y + texel.y) * u_outSize.x + texel.x] = value;
 }

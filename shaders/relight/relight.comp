@@ -1,7 +1,11 @@
 // Relights a stack: one invocation does a block of SWARD_BLOCK x SWARD_BLOCK columns through all layers. With blocks of
 // 2 it writes the first mip level as well, from the values it holds.
 #include "include/layout.glsl"
+#include "include/quantity.glsl"
 #include "relight/stack.glsl"
+#if SWARD_QUANTITY
+#include "relight/quantity.glsl"
+#endif
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 0) writeonly buffer Relit { uint b_relit[]; };
@@ -41,7 +45,12 @@ void main() {
 #else
       vec2 f = texelResponse(texel);
 #endif
+#if SWARD_QUANTITY
+      int column = image * area + stackColumn + i / SWARD_BLOCK * u_stackSize.x + i % SWARD_BLOCK;
+      vec4 relit = quantityTexel(texel, column, f, layer, image);
+#else
       vec4 relit = relitTexel(texel, f);
+#endif
       b_relit[outTexel + i / SWARD_BLOCK * u_outSize.x + i % SWARD_BLOCK] = encodeRelit(relit.rgb, relit.a);
       sum += vec4(relit.rgb * relit.a, relit.a);
     }

@@ -51,12 +51,19 @@ Response columnResponse(int column) {
   Response response;
   for (int c = 0; c < SWARD_CHANNELS; ++c) {
     int k = c * 10;
+#if SWARD_QUANTITY == SWARD_COEFFICIENT
+    // All weights but one are 0: the coefficient itself, the same in every layer.
+    float only = u_constants[c * 3];
+    for (int j = 0; j < kPerItem; ++j) only += u_weights[k + j] * q[k + j];
+    response.abc[c] = vec3(only, 0.0, 0.0);
+#else
     float a = u_constants[c * 3] + u_weights[k] * q[k] + u_weights[k + 1] * q[k + 1] + u_weights[k + 3] * q[k + 3] +
               u_weights[k + 6] * q[k + 6] + u_weights[k + 7] * q[k + 7] + u_weights[k + 9] * q[k + 9];
     float b = u_constants[c * 3 + 1] + u_weights[k + 4] * q[k + 4] + u_weights[k + 5] * q[k + 5] +
               u_weights[k + 8] * q[k + 8];
     float cc = u_constants[c * 3 + 2] + u_weights[k + 2] * q[k + 2];
     response.abc[c] = vec3(a, b, cc);
+#endif
   }
   return response;
 }

@@ -142,7 +142,7 @@ class Application : public EditSink {
 
   /// Sizes of the panels round the viewport, design pixels.
   struct Layout {
-    float left = 250.0f, right = 350.0f, bottom = 250.0f;
+    float left = 250.0f, right = 380.0f, bottom = 250.0f;
   };
 
   ApplicationOptions m_options;

@@ -24,11 +24,6 @@ std::vector<Shortcut> keys(std::initializer_list<const char*> texts) {
 /// Keys that actions may use, as ImGui's arrays number them with GLFW's backend.
 constexpr std::array<std::pair<int, int>, 3> kKeyRanges{{{32, 96}, {256, 269}, {290, 301}}};
 
-std::string sentence(std::string text) {
-  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  return text;
-}
-
 }  // namespace
 
 void Application::registerActions() {
@@ -209,7 +204,7 @@ void Application::afterHistory() {
 void Application::frameSelection() {
   const project::Project& project = m_document->project();
   const double height = m_live->state().ground ? m_live->state().ground->heightM : 0.3;
-  frame(m_ui.camera, {0.0, 0.0, 0.5 * height}, 0.6 * project.patch.sideM, m_viewport.aspect());
+  editor::frame(m_ui.camera, {0.0, 0.0, 0.5 * height}, 0.6 * project.patch.sideM, m_viewport.aspect());
   cameraMoved();
 }
 

@@ -34,7 +34,7 @@ void Application::drawDialogs(int width, int height) {
                                                : std::string("none yet");
   m_dialogs.draw({*m_document, m_actions, m_preferences, m_ui, m_dialogActions, m_options.version,
                   m_gl.versionText(), viewRenderer, m_options.cacheFolder, m_options.threads, device(), width, height});
-  if (const auto chosen = m_fileDialog.draw(width, height)) {
+  if (const auto chosen = m_fileDialog.draw()) {
     // The next question may open the dialog again.
     const auto then = std::exchange(m_fileChosen, nullptr);
     if (then) then(*chosen);

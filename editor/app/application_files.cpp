@@ -3,10 +3,12 @@
 #include "document/document_io.h"
 #include "document/edits.h"
 
-#include "bake/plants.h"
+#include "bake/import.h"
 #include "project/assets.h"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include <unistd.h>
 
@@ -14,6 +16,9 @@ namespace sward::editor {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Endings of pictures that can be dropped on the window; what they hold is read when the soil is baked.
+constexpr std::array<std::string_view, 6> kPictures{".png", ".jpg", ".jpeg", ".tif", ".tiff", ".exr"};
 
 std::string lowerExtension(const fs::path& file) {
   std::string extension = file.extension().string();
@@ -131,7 +136,8 @@ void Application::saveAs(const std::function<void()>& then) {
   options.mode = FileDialogMode::Save;
   options.title = "Save the project";
   options.filters = {{"Sward projects", {".sward"}}};
-  options.fileName = m_document->file().empty() ? "meadow.sward" : m_document->file().filename().string();
+  options.name = m_document->file().empty() ? "meadow.sward" : m_document->file().filename().string();
+  options.extension = ".sward";
   chooseFile(std::move(options), [this, then](const fs::path& file) {
     m_document->closeStep();
     const auto saved = saveDocumentAs(*m_document, withProjectExtension(file));
@@ -194,7 +200,7 @@ void Application::dropped(const std::vector<fs::path>& files) {
       open(file);
     } else if (extension == ".glb" || extension == ".gltf") {
       addPlantFrom(file);
-    } else if (image::canReadImage(file)) {
+    } else if (std::find(kPictures.begin(), kPictures.end(), extension) != kPictures.end()) {
       edit(
           "soil texture",
           [&](project::Project& p) { p.patch.soil.texture = project::assetPath(file, p.folder); }, {});
@@ -225,13 +231,21 @@ void Application::chooseOutput(const std::function<void(const fs::path&)>& then)
   options.mode = FileDialogMode::Save;
   options.title = "Write the picture to";
   options.filters = {{"Pictures", {".png", ".exr"}}};
-  options.fileName = "meadow.png";
+  options.name = "meadow.png";
+  options.extension = ".png";
   chooseFile(std::move(options), then);
 }
 
 void Application::chooseFile(FileDialogOptions options, std::function<void(const fs::path&)> then) {
   options.folder = m_document->file().empty() ? fs::current_path() : m_document->file().parent_path();
-  for (const fs::path& recent : m_preferences.recentFiles) options.recentFolders.push_back(recent.parent_path());
+  if (!m_document->file().empty()) options.places.emplace_back("Project", m_document->file().parent_path());
+  std::vector<fs::path> seen;
+  for (const fs::path& recent : m_preferences.recentFiles) {
+    const fs::path folder = recent.parent_path();
+    if (std::find(seen.begin(), seen.end(), folder) != seen.end()) continue;
+    seen.push_back(folder);
+    options.places.emplace_back(folder.filename().string(), folder);
+  }
   m_fileChosen = std::move(then);
   m_fileDialog.open(std::move(options));
 }

@@ -44,16 +44,19 @@ void beginRegion(const char* name, const Region& region, ImU32 background, ImVec
 /// A handle along a region between two panels; the size of the panel that it belongs to, after a drag. Panels right of
 /// and below the viewport grow against the mouse.
 float splitter(const char* id, const Region& at, float size, float most, float usual) {
+  beginRegion(id, at, theme().colours.backdrop, {0.0f, 0.0f}, false);
   ImGui::SetCursorScreenPos({at.x, at.y});
   const bool upright = at.height > at.width;
   const float least = std::min(px(kLeastPanel), most);
   if (std::string_view(id) == "splitter.left") {
     splitHandle(id, upright, std::max(at.width, at.height), size, least, most, px(usual));
-    return size;
+  } else {
+    float mirrored = -size;
+    splitHandle(id, upright, std::max(at.width, at.height), mirrored, -most, -least, -px(usual));
+    size = -mirrored;
   }
-  float mirrored = -size;
-  splitHandle(id, upright, std::max(at.width, at.height), mirrored, -most, -least, -px(usual));
-  return -mirrored;
+  ImGui::End();
+  return size;
 }
 
 void menuItem(const Action& action) {
@@ -197,18 +200,15 @@ void Application::drawPanels(PanelContext& context, int width, int height) {
   drawToolbar();
   ImGui::End();
 
-  // The handles lie behind the panels.
-  beginRegion("##splitters", {0.0f, top, w, room}, colours.backdrop, {0.0f, 0.0f}, false);
   const float scale = theme().scale;
   if (m_ui.showOutliner)
     layout.left = splitter("splitter.left", {left, top, gap, room}, left, 0.3f * w, 250.0f) / scale;
   if (m_ui.showInspector)
-    layout.right = splitter("splitter.right", {w - right - gap, top, gap, room}, right, 0.4f * w, 350.0f) / scale;
+    layout.right = splitter("splitter.right", {w - right - gap, top, gap, room}, right, 0.4f * w, 380.0f) / scale;
   const float bottomTop = top + room - bottom - gapBottom;
   if (m_ui.showBottom)
     layout.bottom =
         splitter("splitter.bottom", {left + gapLeft, bottomTop, middle, gap}, bottom, 0.75f * room, 250.0f) / scale;
-  ImGui::End();
 
   if (m_ui.showOutliner) {
     beginRegion("##outliner", {0.0f, top, left, room}, colours.panel, {0.0f, px(4.0f)}, true);

@@ -4,7 +4,7 @@
 #include "widgets/item_log.h"
 #include "widgets/theme.h"
 
-#include "project/presets.h"
+#include "project/project.h"
 
 #include <algorithm>
 #include <array>
@@ -23,6 +23,11 @@ constexpr std::array<const char*, 5> kHints{
     "Hold L and drag in the picture: the sun moves, nothing is baked again.",
     "Open a curve at a plant's values, and bend a blade's outline below.",
     "Ctrl+P finds every command; Ctrl+Z takes everything back."};
+
+std::string capitalised(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
 
 }  // namespace
 
@@ -179,22 +184,22 @@ void Dialogs::drawError(const Input& input) {
 void Dialogs::drawTemplates(const Input& input) {
   if (!begin("New project", input, 480.0f)) return;
   ImGui::TextDisabled("Start from");
-  for (const project::Template& entry : project::templates()) {
+  for (const project::TemplateInfo& entry : project::templates()) {
     const ImVec2 start = ImGui::GetCursorPos();
-    const bool chosen = ImGui::Selectable(("##" + std::string(entry.name)).c_str(), false, 0, {0.0f, px(46.0f)});
+    const bool chosen = ImGui::Selectable(("##" + entry.name).c_str(), false, 0, {0.0f, px(46.0f)});
     logItem("template:", entry.name);
     ImGui::SetCursorPos({start.x + px(10.0f), start.y + px(5.0f)});
     {
       const FontScope font(theme().fonts.strong);
-      ImGui::TextUnformatted(std::string(entry.label).c_str());
+      ImGui::TextUnformatted(capitalised(entry.name).c_str());
     }
     ImGui::SetCursorPos({start.x + px(10.0f), start.y + px(24.0f)});
-    ImGui::TextDisabled("%s", std::string(entry.description).c_str());
+    ImGui::TextDisabled("%s", entry.description.c_str());
     ImGui::SetCursorPos({start.x, start.y + px(50.0f)});
     if (!chosen) continue;
     close();
     ImGui::EndPopup();
-    return input.act.useTemplate(std::string(entry.name));
+    return input.act.useTemplate(entry.name);
   }
   ImGui::Dummy({0.0f, px(6.0f)});
   if (button("Cancel", "cancel")) close();

@@ -9,6 +9,7 @@ namespace {
 /// A picture answers at half resolution until nothing moved for so long.
 constexpr double kSettleSeconds = 0.25;
 constexpr std::size_t kPictureTimes = 20;
+constexpr int kThumbnailPixels = 96;
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -45,7 +46,7 @@ LiveLink::LiveLink(const UiGl& gl, Options options)
       m_bakeOptions(bakeOptions(options)),
       m_bakes(m_bakeOptions),
       m_views({options.device, options.wake}),
-      m_thumbnails({options.wake}) {
+      m_thumbnails({{.size = kThumbnailPixels}, options.wake}) {
   m_state.thumbnails = &m_thumbnailTextures;
 }
 
@@ -105,12 +106,12 @@ bool LiveLink::takePicture() {
 
 bool LiveLink::takeThumbnails() {
   bool any = false;
-  while (auto thumbnail = m_thumbnails.tryPop()) {
-    PanelPicture& picture = m_thumbnailTextures[thumbnail->key];
-    picture.texture = m_gl.upload(picture.texture, thumbnail->width, thumbnail->height, thumbnail->rgba);
-    picture.width = thumbnail->width;
-    picture.height = thumbnail->height;
+  while (auto drawn = m_thumbnails.tryPop()) {
     any = true;
+    if (drawn->error) continue;  // its bake says what is wrong
+    PanelPicture& picture = m_thumbnailTextures[drawn->slot];
+    picture.width = picture.height = drawn->thumbnail.size;
+    picture.texture = m_gl.upload(picture.texture, picture.width, picture.height, drawn->thumbnail.rgba);
   }
   return any;
 }
@@ -151,6 +152,19 @@ void LiveLink::updateOther(const Document& document, const CompareState& compare
   m_otherGround.reset();
 }
 
+void LiveLink::requestThumbnails(const Document& document) {
+  // A plant's place in the list decides about its random numbers, so that it is the slot, too.
+  const project::Patch& patch = document.project().patch;
+  for (std::size_t i = 0; i < patch.plants.size(); ++i)
+    m_thumbnails.request(i, patch.plants[i], i, patch.seed, document.project().folder);
+  while (!m_thumbnailTextures.empty() && m_thumbnailTextures.rbegin()->first >= patch.plants.size()) {
+    const auto last = std::prev(m_thumbnailTextures.end());
+    m_thumbnails.forget(last->first);
+    m_gl.destroy(last->second.texture);
+    m_thumbnailTextures.erase(last);
+  }
+}
+
 void LiveLink::requestPicture(const Wanted& wanted) {
   ViewRequest request;
   request.project = wanted.project;
@@ -184,4 +198,3 @@ void LiveLink::cancelBake() {
 }
 
 }  // namespace sward::editor
-namespace sward::editor { void LiveLink::requestThumbnails(const Document&) {} }

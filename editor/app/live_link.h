@@ -73,7 +73,7 @@ class LiveLink {
   ViewService m_views;
   ThumbnailService m_thumbnails;
   LiveState m_state;
-  std::map<std::string, PanelPicture> m_thumbnailTextures;
+  std::map<std::uint64_t, PanelPicture> m_thumbnailTextures;  ///< by the plant's index
   std::uint64_t m_revision = 0, m_groundRevision = 0;
   std::optional<Wanted> m_wanted;
   std::uint64_t m_requestId = 0;

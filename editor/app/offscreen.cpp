@@ -3,6 +3,7 @@
 #include "widgets/theme.h"
 
 #include "gpu/gl.h"
+#include "gpu/objects.h"
 
 #include <atomic>
 #include <chrono>

@@ -1,5 +1,6 @@
 #include "panels/curve_list.h"
 
+#include "mesh/procedural.h"
 #include "project/schema.h"
 
 #include <functional>
@@ -8,6 +9,8 @@
 
 namespace sward::editor {
 namespace {
+
+using project::describe;  // structs of other folders are described there
 
 /// The archive that visits every curve in use with its path.
 class CurveVisitor {
@@ -50,6 +53,18 @@ class CurveVisitor {
   const Visit& m_visit;
 };
 
+/// What a procedural plant does without a curve of its own.
+base::Curve builtInOf(const project::Project& project, const std::string& path, const std::string& owner) {
+  for (std::size_t i = 0; i < project.patch.plants.size(); ++i) {
+    if (owner != "patch.plants[" + std::to_string(i) + "]") continue;
+    if (path.ends_with(".grass.profile")) return mesh::builtInProfile();
+    if (path.ends_with(".grass.colourAlong")) return mesh::builtInColourAlong();
+    if (path.ends_with(".grass.heightDistribution"))
+      return mesh::builtInHeightDistribution(project.patch.plants[i].grass.heightVariation);
+  }
+  return {};
+}
+
 }  // namespace
 
 std::vector<CurveEntry> curvesOf(const project::Project& project) {
@@ -57,7 +72,8 @@ std::vector<CurveEntry> curvesOf(const project::Project& project) {
   project::Project copy = project;
   const CurveVisitor::Visit visit = [&](const std::string& path, base::Curve& curve, const project::Spec& spec) {
     const std::size_t bracket = path.find(']');
-    curves.push_back({path, bracket == std::string::npos ? "" : path.substr(0, bracket + 1), spec, curve});
+    const std::string owner = bracket == std::string::npos ? "" : path.substr(0, bracket + 1);
+    curves.push_back({path, owner, spec, curve, builtInOf(project, path, owner)});
   };
   CurveVisitor visitor("", visit);
   describe(visitor, copy);

@@ -14,7 +14,8 @@ struct CurveEntry {
   std::string path;   ///< "patch.plants[0].grass.profile"
   std::string owner;  ///< path of the plant or other struct that it belongs to: "patch.plants[0]"
   project::Spec spec;
-  base::Curve curve;  ///< empty: the built-in one is in use
+  base::Curve curve;    ///< empty: the built-in one is in use
+  base::Curve builtIn;  ///< what holds while `curve` is empty; empty where nothing is built in
 };
 
 /// Every curve that is in use, in the order of the schema.

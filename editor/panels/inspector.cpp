@@ -54,6 +54,7 @@ FieldOptions InspectorPanel::options() const {
   FieldOptions options;
   options.filter = m_filter;
   options.advanced = m_advanced;
+  options.labelShare = 0.46f;
   options.problems = &m_problems;
   return options;
 }

@@ -132,7 +132,7 @@ void OutlinerPanel::plantRow(PanelContext& context, std::size_t index, double sh
   plantMenu(context, index);
   const ImVec2 corner{screen.x + px(10.0f), screen.y + px(4.0f)};
   const ImVec2 end{corner.x + px(36.0f), corner.y + px(36.0f)};
-  drawThumbnail(context, plant, index, corner, end, iconOf(plant.kind));
+  drawThumbnail(context, index, corner, end, iconOf(plant.kind));
   ImGui::SetCursorPos({px(56.0f), start.y + px(5.0f)});
   if (m_renaming && m_renaming->plant && m_renaming->index == index) {
     renameField(context, plant.name, true, index);

@@ -48,7 +48,7 @@ struct LiveState {
   double drawMs = 0.0, framesPerSecond = 0.0;
   std::optional<Error> viewError;
   std::optional<gpu::DeviceInfo> device;
-  const std::map<std::string, PanelPicture>* thumbnails = nullptr;  ///< by plantKey()
+  const std::map<std::uint64_t, PanelPicture>* thumbnails = nullptr;  ///< by the plant's index
 };
 
 /// What every panel is given.

@@ -4,13 +4,18 @@
 
 namespace sward::editor {
 
-void drawThumbnail(const PanelContext& context, const project::Plant& plant, std::size_t index, ImVec2 corner,
-                   ImVec2 end, const char* icon) {
+void drawThumbnail(const PanelContext& context, std::size_t index, ImVec2 corner, ImVec2 end,
+                   const char* icon) {
   ImDrawList* draw = ImGui::GetWindowDrawList();
-  (void)context;
-  (void)plant;
-  (void)index;
-  draw->AddRectFilled(corner, end, theme().colours.field, px(4.0f));
+  const Palette& colours = theme().colours;
+  draw->AddRectFilled(corner, end, mixed(colours.field, colours.text, 0.22f), px(4.0f));
+  const auto& pictures = *context.live.thumbnails;
+  const auto found = pictures.find(index);
+  if (found != pictures.end() && found->second.texture != 0) {
+    // ImGui's OpenGL backend takes the texture's name for its handle.
+    draw->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(found->second.texture)), corner, end);
+    return;
+  }
   const ImVec2 size = ImGui::CalcTextSize(icon);
   draw->AddText({0.5f * (corner.x + end.x - size.x), 0.5f * (corner.y + end.y - size.y)}, theme().colours.textDim, icon);
 }

@@ -7,7 +7,6 @@
 namespace sward::editor {
 
 /// A plant's thumbnail in a rounded frame; its icon until the picture is there.
-void drawThumbnail(const PanelContext& context, const project::Plant& plant, std::size_t index, ImVec2 corner,
-                   ImVec2 end, const char* icon);
+void drawThumbnail(const PanelContext& context, std::size_t index, ImVec2 corner, ImVec2 end, const char* icon);
 
 }  // namespace sward::editor

@@ -167,7 +167,7 @@ void FileDialog::row(std::size_t index, std::optional<fs::path>& chosen) {
       draw->AddText(ImVec2(ImGui::GetCursorScreenPos().x, y), c.textDim, text.c_str());
     };
     cell(timeText(entry.modifiedS));
-    cell(entry.folder ? "" : bytesText(entry.bytes));
+    cell(entry.folder ? "" : fileSizeText(entry.bytes));
   }
   if (!clicked) return;
   const bool twice = ImGui::IsMouseDoubleClicked(0);

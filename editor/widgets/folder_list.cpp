@@ -108,7 +108,7 @@ std::optional<std::size_t> findTyped(const std::vector<FolderEntry>& entries, st
   return std::nullopt;
 }
 
-std::string bytesText(std::uintmax_t bytes) {
+std::string fileSizeText(std::uintmax_t bytes) {
   constexpr std::array kUnits{"B", "kB", "MB", "GB", "TB"};
   auto value = static_cast<double>(bytes);
   std::size_t unit = 0;

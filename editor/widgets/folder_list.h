@@ -37,7 +37,7 @@ bool naturalLess(std::string_view a, std::string_view b);
 /// The first entry from `from` on (round the end) whose name begins with the typed text, whatever the case.
 std::optional<std::size_t> findTyped(const std::vector<FolderEntry>& entries, std::string_view typed, std::size_t from);
 /// "3.4 MB"
-std::string bytesText(std::uintmax_t bytes);
+std::string fileSizeText(std::uintmax_t bytes);
 /// "2025-06-21 14:03", local time; empty for 0.
 std::string timeText(std::int64_t secondsSince1970);
 /// Why a file or folder cannot be called this; empty when it can.

@@ -45,8 +45,8 @@ TEST(ActionTable, RunsEnabledActionsAlone) {
 TEST(ActionTable, RefusesASecondIdOrShortcut) {
   ActionTable table;
   table.add(named("a", "A", "Ctrl+A"));
-  EXPECT_THROW(table.add(named("a", "Another")), ContractError);
-  EXPECT_THROW(table.add(named("b", "B", "Ctrl+A")), ContractError);
+  EXPECT_THROW(table.add(named("a", "Another")), base::ContractError);
+  EXPECT_THROW(table.add(named("b", "B", "Ctrl+A")), base::ContractError);
 }
 
 TEST(ActionTable, PlainKeysAreLeftToTextFields) {

@@ -93,10 +93,10 @@ TEST(FolderList, TypedTextFindsNames) {
 }
 
 TEST(FolderList, SizesAndNames) {
-  EXPECT_EQ(bytesText(0), "0 B");
-  EXPECT_EQ(bytesText(999), "999 B");
-  EXPECT_EQ(bytesText(3400000), "3.4 MB");
-  EXPECT_EQ(bytesText(250000000), "250 MB");
+  EXPECT_EQ(fileSizeText(0), "0 B");
+  EXPECT_EQ(fileSizeText(999), "999 B");
+  EXPECT_EQ(fileSizeText(3400000), "3.4 MB");
+  EXPECT_EQ(fileSizeText(250000000), "250 MB");
   EXPECT_EQ(timeText(0), "");
   EXPECT_EQ(nameProblem("meadow.sward"), "");
   for (const char* name : {"", ".", "..", "a/b"}) EXPECT_NE(nameProblem(name), "") << name;

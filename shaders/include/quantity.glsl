@@ -16,7 +16,7 @@
 // core/render/view_mode.cpp.
 vec3 tileColour(int tile) {
   const float kGolden = 0.61803399;
-  const float kPale = 0.25;
+  const float kPale = 0.12;
   vec3 turn = fract(float(tile) * kGolden + vec3(0.0, 2.0, 1.0) / 3.0) * 6.0;
   return mix(vec3(kPale), vec3(1.0), clamp(abs(turn - 3.0) - 1.0, 0.0, 1.0));
 }

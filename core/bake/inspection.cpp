@@ -2,7 +2,10 @@
 
 #include "base/parallel.h"
 
+#include <algorithm>
+#include <cmath>
 #include <span>
+#include <utility>
 
 namespace sward::bake {
 namespace {
@@ -10,8 +13,11 @@ namespace {
 /// Writes columns of the patch, or means of several, into a stack's arrangement.
 class InspectionBuilder {
  public:
-  InspectionBuilder(const InspectedLayers& layers, int width, int height, int images)
-      : m_layers(layers), m_width(static_cast<std::size_t>(width)), m_height(static_cast<std::size_t>(height)) {
+  InspectionBuilder(const InspectedLayers& layers, const ConditionRange& conditions, int width, int height, int images)
+      : m_layers(layers),
+        m_conditions(conditions),
+        m_width(static_cast<std::size_t>(width)),
+        m_height(static_cast<std::size_t>(height)) {
     const std::size_t columns = m_width * m_height * static_cast<std::size_t>(images);
     m_out.condition.assign(columns, 0);
     m_out.rank.assign(columns, 0);
@@ -43,7 +49,7 @@ class InspectionBuilder {
       rank = std::min(rank, static_cast<int>(fit.rank[source.column]));
     }
     if (!(total > 0.0)) return;
-    m_out.condition[column] = conditionByte(static_cast<float>(std::pow(10.0, logarithms / total)));
+    m_out.condition[column] = m_conditions.byteOf(static_cast<float>(std::pow(10.0, logarithms / total)));
     m_out.rank[column] = static_cast<std::uint8_t>(rank);
   }
 
@@ -66,15 +72,39 @@ class InspectionBuilder {
   }
 
   const InspectedLayers& m_layers;
+  ConditionRange m_conditions;
   std::size_t m_width, m_height;
   StackInspection m_out;
 };
 
 }  // namespace
 
-StackInspection inspectPatch(const InspectedLayers& layers, const JobContext& job) {
+std::uint8_t ConditionRange::byteOf(float condition) const {
+  if (!(condition > 0.0f)) return 0;
+  const double share = (std::log10(static_cast<double>(condition)) - low) / (high - low);
+  return static_cast<std::uint8_t>(1 + std::lround(254.0 * std::clamp(share, 0.0, 1.0)));
+}
+
+ConditionRange conditionRange(std::span<const lpt::Fit* const> fits) {
+  constexpr double kOutliers = 0.01, kLeastDecades = 0.05;
+  std::vector<float> conditions;
+  for (const lpt::Fit* fit : fits)
+    for (const float condition : fit->condition)
+      if (condition > 0.0f && std::isfinite(condition)) conditions.push_back(condition);
+  if (conditions.empty()) return {};
+  std::sort(conditions.begin(), conditions.end());
+  const auto last = static_cast<double>(conditions.size() - 1);
+  const auto at = [&](double share) {
+    return std::log10(static_cast<double>(conditions[static_cast<std::size_t>(std::lround(share * last))]));
+  };
+  const double low = at(kOutliers), high = at(1.0 - kOutliers);
+  const double widen = std::max(0.0, 0.5 * (kLeastDecades - (high - low)));
+  return {low - widen, high + widen};
+}
+
+StackInspection inspectPatch(const InspectedLayers& layers, const ConditionRange& conditions, const JobContext& job) {
   const trace::LayerShape& shape = layers.hits.shape;
-  InspectionBuilder builder(layers, shape.width, shape.height, 1);
+  InspectionBuilder builder(layers, conditions, shape.width, shape.height, 1);
   const auto width = static_cast<std::size_t>(shape.width);
   base::parallelFor(job, static_cast<std::size_t>(shape.height), 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t y = begin; y < end; ++y) {
@@ -87,10 +117,11 @@ StackInspection inspectPatch(const InspectedLayers& layers, const JobContext& jo
   return builder.take();
 }
 
-StackInspection inspectTiles(const InspectedLayers& layers, const tiles::TileSet& set, const JobContext& job) {
+StackInspection inspectTiles(const InspectedLayers& layers, const ConditionRange& conditions, const tiles::TileSet& set,
+                             const JobContext& job) {
   const int side = set.side();
   const auto images = static_cast<int>(set.tiles.size());
-  InspectionBuilder builder(layers, side, side, images);
+  InspectionBuilder builder(layers, conditions, side, side, images);
   const auto rows = static_cast<std::size_t>(images) * static_cast<std::size_t>(side);
   base::parallelFor(job, rows, 8, [&](std::size_t begin, std::size_t end) {
     for (auto row = static_cast<int>(begin); row < static_cast<int>(end); ++row) {

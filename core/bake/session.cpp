@@ -372,6 +372,14 @@ Result<std::shared_ptr<const GroundBake>> Session::ground() {
 
 Result<Inspection> Session::makeInspection(const JobContext& job) {
   Inspection made;
+  std::vector<Shared<lpt::Fit>> held;
+  std::vector<const lpt::Fit*> fits;
+  for (const LayerSet set : trace::kAllLayerSets) {
+    if (set == LayerSet::Ground) continue;  // a fit of another kind
+    SWARD_ASSIGN(held.emplace_back(), fit(set));
+    fits.push_back(held.back().get());
+  }
+  made.conditions = conditionRange(fits);
   for (const LayerSet set : trace::kAllLayerSets) {
     SWARD_ASSIGN(const auto found, hits(set));
     SWARD_ASSIGN(const auto seen, visibility(set));
@@ -379,10 +387,10 @@ Result<Inspection> Session::makeInspection(const JobContext& job) {
     const InspectedLayers layers{*found, *seen, *fitted};
     if (set == LayerSet::Slices || set == LayerSet::Ground) {
       SWARD_ASSIGN(const auto cut, tileSet());
-      (set == LayerSet::Slices ? made.slices : made.soil) = inspectTiles(layers, *cut, job);
+      (set == LayerSet::Slices ? made.slices : made.soil) = inspectTiles(layers, made.conditions, *cut, job);
     } else {
       made.blades[static_cast<std::size_t>(set) - static_cast<std::size_t>(LayerSet::BladesPosX)] =
-          inspectPatch(layers, job);
+          inspectPatch(layers, made.conditions, job);
     }
   }
   return made;

@@ -91,29 +91,30 @@ class ColourScale {
 constexpr float kLeastGround = 1e-4f;  ///< of a pixel that is shown as ground at all
 
 /// `share` of a colour over the backdrop, in display values: sums of sample weights may miss 1 by a rounding.
-void writeOver(const std::array<float, 3>& colour, float share, std::uint8_t* to) {
+void writeOver(const std::array<float, 3>& colour, float share, const ByteColour& behind, std::uint8_t* to) {
   const float kept = share < 0.9999f ? share : 1.0f;
   for (std::size_t c = 0; c < 3; ++c) {
-    const float backdrop = kBackdrop[c];
+    const float backdrop = behind[c];
     to[c] = static_cast<std::uint8_t>(backdrop + kept * (colour[c] - backdrop) + 0.5f);
   }
   to[3] = 255;
 }
 
-void writeScalars(const float* from, int count, float gain, const ColourScale& scale, std::uint8_t* to) {
+void writeScalars(const float* from, int count, float gain, const ColourScale& scale, const ByteColour& backdrop,
+                  std::uint8_t* to) {
   for (int i = 0; i < count; ++i, from += 4, to += 4) {
     const float share = from[3] * gain;
     const bool ground = share > kLeastGround;
-    writeOver(scale(ground ? from[0] / from[3] : 0.0f), ground ? share : 0.0f, to);
+    writeOver(scale(ground ? from[0] / from[3] : 0.0f), ground ? share : 0.0f, backdrop, to);
   }
 }
 
-/// Colours through the view transform; `overBackdrop`: divided by their alpha, and laid over the backdrop by it.
+/// Colours through the view transform; with a backdrop: divided by their alpha, and laid over it by alpha.
 void writeColours(const float* from, int count, float gain, ViewTransform transform, std::uint8_t* to,
-                  bool overBackdrop = false) {
+                  const ByteColour* backdrop = nullptr) {
   const image::SrgbBytes& byte = image::srgbBytes();
   Chunk c = gather(from, count, 4, gain);
-  if (overBackdrop) {
+  if (backdrop != nullptr) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       const float inverse = 1.0f / std::max(from[4 * i + 3] * gain, kLeastGround);
       c.r[i] *= inverse;
@@ -127,10 +128,10 @@ void writeColours(const float* from, int count, float gain, ViewTransform transf
     to[1] = byte(c.g[i]);
     to[2] = byte(c.b[i]);
     to[3] = 255;
-    if (!overBackdrop) continue;
+    if (backdrop == nullptr) continue;
     const float share = from[4 * i + 3] * gain;
     writeOver({static_cast<float>(to[0]), static_cast<float>(to[1]), static_cast<float>(to[2])},
-              share > kLeastGround ? share : 0.0f, to);
+              share > kLeastGround ? share : 0.0f, *backdrop, to);
   }
 }
 
@@ -163,6 +164,7 @@ void toDisplayBytes(std::span<const float> rgba, float gain, const DisplayLook& 
   SWARD_CHECK(columns.begin >= 0 && columns.begin <= columns.end && columns.end <= out.width);
   out.rgba.resize(rgba.size());
   const ColourScale scale(look.legend);
+  const ByteColour backdrop = backdropOf(look.mode);
   base::parallelFor({}, height, kRows, [&](std::size_t begin, std::size_t end) {
     for (std::size_t y = begin; y < end; ++y) {
       const float* row = rgba.data() + (height - 1 - y) * width * 4;
@@ -173,11 +175,11 @@ void toDisplayBytes(std::span<const float> rgba, float gain, const DisplayLook& 
         if (look.mode.plain()) {
           writeColours(from, taken, gain, look.transform, to);
         } else if (look.mode.scalar()) {
-          writeScalars(from, taken, gain, scale, to);
+          writeScalars(from, taken, gain, scale, backdrop, to);
         } else {
           // The picture itself keeps its look also layer by layer.
           const bool shaded = look.mode.quantity == ViewQuantity::Shaded;
-          writeColours(from, taken, gain, shaded ? look.transform : ViewTransform::Standard, to, true);
+          writeColours(from, taken, gain, shaded ? look.transform : ViewTransform::Standard, to, &backdrop);
         }
       }
     }

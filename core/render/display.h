@@ -27,8 +27,8 @@ struct DisplayLook {
   Legend legend;  ///< of the mode
 };
 
-/// The same in 8 bits, for `columns` of `out`, which has the picture's size; alpha 255. `rgba` are floats, rows from the
-/// bottom, each multiplied by `gain` first. The plain picture: exactly the bytes that image::writePng makes of
+/// The same in 8 bits, for `columns` of `out`, which has the picture's size; alpha 255. `rgba` are floats, rows from
+/// the bottom, each multiplied by `gain` first. The plain picture: exactly the bytes that image::writePng makes of
 /// toDisplay's values. View modes: RGB or (in R) the scalar, times alpha, the share of the pixel that is ground; the
 /// rest is backdrop. On all threads.
 void toDisplayBytes(std::span<const float> rgba, float gain, const DisplayLook& look, Columns columns,

@@ -168,8 +168,7 @@ void setSets(gpu::Program& program, const PassInput& input) {
 
 /// Quantities are shown as they are.
 double exposureOf(const Frame& frame) {
-  const bool radiance = frame.mode.quantity == ViewQuantity::Shaded || frame.mode.quantity == ViewQuantity::Tiles;
-  return radiance ? frame.exposure : 1.0;
+  return frame.mode.quantity == ViewQuantity::Shaded ? frame.exposure : 1.0;
 }
 
 /// The axis of the ground that is nearest to up in the picture.
@@ -181,8 +180,11 @@ glm::vec2 labelUp(const scene::Camera& camera) {
 }
 
 void setMode(gpu::Program& program, const Frame& frame, double weight) {
-  // Where it stands alone, a layer; and coefficients, of which the soil has others.
-  const bool soil = frame.mode.layer < 0 && frame.mode.quantity != ViewQuantity::Coefficient;
+  // Not behind a layer that stands alone, nor where its values have another meaning. Coverage is 0 where it is seen.
+  const ViewQuantity quantity = frame.mode.quantity;
+  const bool soil =
+      (frame.mode.layer < 0 && quantity != ViewQuantity::Coefficient && quantity != ViewQuantity::Condition) ||
+      quantity == ViewQuantity::Coverage;
   setIfUsed(program, "u_sampleWeight", static_cast<float>(weight));
   setIfUsed(program, "u_soilWeight", soil ? 1.0f : 0.0f);
   setIfUsed(program, "u_labelUp", labelUp(frame.camera));

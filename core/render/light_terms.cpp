@@ -38,7 +38,8 @@ LightTerms coefficientTerms(lpt::Basis basis, std::span<const lpt::CoefficientRa
   if (stored.scale > 0.0f)
     terms.weights[static_cast<std::size_t>(channel * 10 + coefficient)] =
         static_cast<float>(half / static_cast<double>(stored.scale));
-  terms.constants[0] = static_cast<float>(0.5 - half * static_cast<double>(stored.base));
+  terms.constants[static_cast<std::size_t>(channel * 3)] =
+      static_cast<float>(0.5 - half * static_cast<double>(stored.base));
   return terms;
 }
 

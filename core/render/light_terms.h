@@ -18,8 +18,8 @@ struct LightTerms {
 LightTerms lightTerms(lpt::Basis basis, int channels, std::span<const lpt::CoefficientRange> ranges,
                       const glm::dvec3& light);
 
-/// The same arrays for one coefficient alone, b_j of a channel: 1/2 + b_j / (2 range) as the first constant plus weight
-/// times byte, so that [-range, range] is [0, 1].
+/// The same arrays for one coefficient alone, b_j of a channel: 1/2 + b_j / (2 range) as the channel's first constant
+/// plus weight times byte, so that [-range, range] is [0, 1].
 LightTerms coefficientTerms(lpt::Basis basis, std::span<const lpt::CoefficientRange> ranges, int channel,
                             int coefficient, double range);
 

@@ -142,7 +142,7 @@ Result<void> RelitGround::setMode(const ViewMode& mode, const bake::GroundBake& 
                          "Bake one, or choose another view mode.");
   if (mode == m_mode) return {};
   m_mode = mode;
-  m_scaled = mode.quantity == ViewQuantity::Shaded || mode.quantity == ViewQuantity::Tiles;
+  m_scaled = mode.quantity == ViewQuantity::Shaded;
   m_coefficientRange =
       mode.quantity == ViewQuantity::Coefficient ? coefficientRange(ground, mode.channel, mode.coefficient) : 1.0;
   m_fresh.reset();

@@ -1,13 +1,11 @@
 #include "render/view_mode.h"
 
-#include "bake/inspection.h"
 #include "image/bytes.h"
 #include "image/colour.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <span>
 
 namespace sward::render {
 namespace {
@@ -66,11 +64,14 @@ const char* channelName(ResponseChannel channel) {
   return channel == ResponseChannel::Reflected ? "reflected" : "transmitted";
 }
 
-Legend conditionLegend() {
-  Legend legend{"Condition number of the fit", 0.0, bake::kConditionDecades, infernoStops(), {}, {}};
-  for (int decade = 0; decade <= static_cast<int>(bake::kConditionDecades); ++decade)
-    legend.ticks.push_back({decade / bake::kConditionDecades, numberText(std::pow(10.0, decade))});
-  legend.ticks.back().text += " or more";
+Legend conditionLegend(const bake::Inspection* inspection) {
+  Legend legend{"Condition number of the fit", 0.0, 1.0, infernoStops(), {}, {}};
+  if (inspection == nullptr) return legend;
+  legend.low = inspection->conditions.low;
+  legend.high = inspection->conditions.high;
+  legend.ticks = evenTicks(legend.low, legend.high, 5);
+  for (Legend::Tick& tick : legend.ticks)
+    tick.text = numberText(std::pow(10.0, legend.low + (legend.high - legend.low) * tick.at));
   return legend;
 }
 
@@ -85,7 +86,7 @@ Legend tilesLegend(const bake::GroundBake& ground) {
   return legend;
 }
 
-Legend quantityLegend(const ViewMode& mode, const bake::GroundBake& ground) {
+Legend quantityLegend(const ViewMode& mode, const bake::GroundBake& ground, const bake::Inspection* inspection) {
   const auto bar = [](std::string title, double low, double high, Stops stops) {
     return Legend{std::move(title), low, high, std::move(stops), evenTicks(low, high, 5), {}};
   };
@@ -106,18 +107,27 @@ Legend quantityLegend(const ViewMode& mode, const bake::GroundBake& ground) {
     case ViewQuantity::Visibility:
       return bar("Visibility", 0.0, 1.0, viridisStops());
     case ViewQuantity::Condition:
-      return conditionLegend();
+      return conditionLegend(inspection);
     case ViewQuantity::Tiles:
       return tilesLegend(ground);
   }
   return {};
 }
 
-/// Largest absolute value that quantised coefficients may be read back as.
-double largest(const lpt::CoefficientRange& range, int bits) {
-  const double low = -static_cast<double>(range.base);
-  const double high = range.scale > 0.0f ? ((1 << bits) - 1) / static_cast<double>(range.scale) + low : low;
-  return std::max(std::abs(low), std::abs(high));
+/// Absolute values of one coefficient, of at most about kMost places evenly over the stack.
+void collect(const lpt::LayerStack& stack, ResponseChannel channel, int coefficient, std::vector<double>& values) {
+  constexpr std::size_t kMost = 100000;
+  const auto index = static_cast<std::size_t>(static_cast<int>(channel) * stack.perColumn() + coefficient);
+  if (index >= stack.ranges.size()) return;
+  const lpt::CoefficientRange& range = stack.ranges[index];
+  const std::size_t items = stack.basis == lpt::Basis::Lpt ? stack.columnCount() : stack.texelCount();
+  const std::size_t bytes = static_cast<std::size_t>(stack.bits) / 8;
+  for (std::size_t item = 0; item < items; item += 1 + items / kMost) {
+    const std::uint8_t* stored = stack.coefficients.data() + (item * stack.ranges.size() + index) * bytes;
+    const int quantised = bytes == 2 ? stored[0] | (stored[1] << 8) : stored[0];
+    const double value = range.scale > 0.0f ? quantised / static_cast<double>(range.scale) : 0.0;
+    values.push_back(std::abs(value - static_cast<double>(range.base)));
+  }
 }
 
 }  // namespace
@@ -135,8 +145,8 @@ bool ViewMode::scalar() const {
   }
 }
 
-Legend legendOf(const ViewMode& mode, const bake::GroundBake& ground) {
-  Legend legend = quantityLegend(mode, ground);
+Legend legendOf(const ViewMode& mode, const bake::GroundBake& ground, const bake::Inspection* inspection) {
+  Legend legend = quantityLegend(mode, ground, inspection);
   if (mode.layer < 0) return legend;
   const std::string layer = "layer " + std::to_string(mode.layer);
   legend.title = legend.title.empty() ? "Shaded, " + layer : legend.title + ", " + layer;
@@ -144,7 +154,7 @@ Legend legendOf(const ViewMode& mode, const bake::GroundBake& ground) {
 }
 
 glm::vec3 tileColour(int tile) {
-  constexpr float kGolden = 0.61803399f, kPale = 0.25f;
+  constexpr float kGolden = 0.61803399f, kPale = 0.12f;
   glm::vec3 colour;
   for (int c = 0; c < 3; ++c) {
     const float third = static_cast<float>((3 - c) % 3) / 3.0f;
@@ -156,14 +166,18 @@ glm::vec3 tileColour(int tile) {
 }
 
 double coefficientRange(const bake::GroundBake& ground, ResponseChannel channel, int coefficient) {
-  double range = 0.0;
-  const auto include = [&](const lpt::LayerStack& stack) {
-    const auto index = static_cast<std::size_t>(static_cast<int>(channel) * stack.perColumn() + coefficient);
-    if (index < stack.ranges.size()) range = std::max(range, largest(stack.ranges[index], stack.bits));
-  };
-  include(ground.slices);
-  for (const lpt::LayerStack& blade : ground.blades) include(blade);
-  return range > 0.0 ? range : 1.0;
+  constexpr double kShown = 0.98;
+  std::vector<double> values;
+  collect(ground.slices, channel, coefficient, values);
+  for (const lpt::LayerStack& blade : ground.blades) collect(blade, channel, coefficient, values);
+  if (values.empty()) return 1.0;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(kShown * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at > 0.0 ? *at : 1.0;
+}
+
+ByteColour backdropOf(const ViewMode& mode) {
+  return mode.layer >= 0 && !mode.scalar() ? ByteColour{108, 110, 114} : ByteColour{46, 48, 53};
 }
 
 Result<void> checkMode(const ViewMode& mode, const bake::GroundBake& ground) {

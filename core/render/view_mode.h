@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bake/ground_bake.h"
+#include "bake/inspection.h"
 #include "base/result.h"
 
 #include <array>
@@ -65,15 +66,17 @@ struct Legend {
   std::vector<Tick> ticks;
   std::vector<Swatch> swatches;  ///< Tiles: one a tile
 };
-Legend legendOf(const ViewMode& mode, const bake::GroundBake& ground);
+/// `inspection` gives Condition its range; without one its ends are unnamed.
+Legend legendOf(const ViewMode& mode, const bake::GroundBake& ground, const bake::Inspection* inspection = nullptr);
 
-/// What stands where a view mode shows no ground.
-inline constexpr ByteColour kBackdrop{46, 48, 53};
+/// What stands where a view mode shows no ground: dark, or mid-grey behind the dark leaves of one layer alone.
+ByteColour backdropOf(const ViewMode& mode);
 
 /// Colour of a tile's index, linear; also tileColour() of shaders/include/quantity.glsl.
 glm::vec3 tileColour(int tile);
 
-/// Largest absolute value that coefficient j of a channel may have in any stack of grass, as its ranges say; above 0.
+/// What a legend shows of coefficient j of a channel to either side of 0: the absolute value that all but two in a
+/// hundred of the grass's coefficients stay within; above 0.
 double coefficientRange(const bake::GroundBake& ground, ResponseChannel channel, int coefficient);
 
 /// Errors: a layer or coefficient that the ground does not have.

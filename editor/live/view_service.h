@@ -76,7 +76,7 @@ class ViewService {
   void request(ViewRequest request);
   /// The newest picture not yet taken.
   std::optional<ViewPicture> tryPop();
-  /// Of the newest request, when it could not be drawn.
+  /// Why the newest request that was begun could not be drawn; stands until a picture is drawn again.
   std::optional<Error> error() const;
   /// What draws; empty until the context exists.
   std::optional<gpu::DeviceInfo> device() const;

@@ -7,12 +7,13 @@ uniform float u_soilWeight;  // 0: what shines through is background
 #if SWARD_MODE == 2
 uniform vec2 u_labelUp;  // the axis of the ground that points up in the picture, so that numbers stand upright
 
-const float kLinePixels = 1.2;         // half the width of a border
-const float kHaloPixels = 2.4;         // and of the dark seam around it
+const float kLinePixels = 0.8;         // half the width of a border
+const float kHaloPixels = 1.8;         // and of the dark seam around it
 const float kSmallestTile = 8.0;       // pixels of a tile where its border begins to show
-const float kLabelHeight = 0.46;       // of a tile
-const float kLabelWidth = 0.62;
-const float kPlateAlpha = 0.62;
+const float kLabelHeight = 0.26;       // of a tile
+const float kLabelWidth = 0.36;
+const float kPlateAlpha = 0.5;
+const float kOverlayHeight = 0.5;      // of the shell: about where what is seen of the plants stands
 
 // Ten digits of three columns and five rows, the highest bit the upper left.
 const int kDigits[10] =
@@ -28,8 +29,7 @@ bool inkAt(int number, int digits, ivec2 at) {
   return ((kDigits[shown % 10] >> (14 - at.y * 3 - column)) & 1) == 1;
 }
 
-// White ink on a dark plate, premultiplied. `q` counts from the tile's middle, x to the right; `cellPixels` is a number's
-// cell at its smallest on the screen.
+// White ink on a dark plate, premultiplied. `q` counts tiles from the middle of one, x to the right.
 vec4 label(int number, vec2 q, float pixelsATile) {
   int digits = number > 99 ? 3 : (number > 9 ? 2 : 1);
   float columns = float(digits * 4 - 1);
@@ -42,12 +42,12 @@ vec4 label(int number, vec2 q, float pixelsATile) {
   return shown * (ink ? vec4(1.0) : vec4(vec3(0.0), kPlateAlpha));
 }
 
-// Borders and numbers lie like a lid on the shell, or on the ground where the eye is within it; premultiplied.
+// Borders and numbers lie on a plane within the shell, or on the ground where the eye is below that; premultiplied.
 vec4 tileOverlay(Walk walk, vec3 d) {
-  bool above = u_eyeM > u_heightM;
-  vec2 bent = walk.place + vec2(gridBend(walk.bend.x), gridBend(walk.bend.y));
-  vec2 at = above ? bent : bent + walk.slope * max(walk.tEnd, 0.0);
-  float distanceM = above ? walk.tEnter : walk.tStart + max(walk.tEnd, 0.0);
+  float overlayM = u_eyeM > u_heightM ? kOverlayHeight * u_heightM : 0.0;
+  float t = max(walk.heightM - overlayM, 0.0) * walk.path;
+  vec2 at = walk.place + walk.slope * t + vec2(gridBend(walk.bend.x), gridBend(walk.bend.y));
+  float distanceM = walk.tStart + t;
   vec2 cell = floor(at);
   vec2 within = at - cell;
   // Tiles a pixel along x and y: a pixel is stretched along the view by the slant.

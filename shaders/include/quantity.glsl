@@ -12,11 +12,13 @@
 #define SWARD_TILES 7
 #define SWARD_SHADED_LAYER 8
 
+#if SWARD_QUANTITY == SWARD_TILES
 // A tile's colour, linear: hues a golden angle apart, so that neighbours in number differ. Also tileColour() of
 // core/render/view_mode.cpp.
 vec3 tileColour(int tile) {
   const float kGolden = 0.61803399;
-  const float kPale = 0.25;
+  const float kPale = 0.12;
   vec3 turn = fract(float(tile) * kGolden + vec3(0.0, 2.0, 1.0) / 3.0) * 6.0;
   return mix(vec3(kPale), vec3(1.0), clamp(abs(turn - 3.0) - 1.0, 0.0, 1.0));
 }
+#endif

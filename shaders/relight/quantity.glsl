@@ -25,8 +25,9 @@ vec4 quantityTexel(int texel, int column, vec2 f, int layer, int image) {
 #elif SWARD_QUANTITY == SWARD_CONDITION
   vec3 value = vec3(inspected(column), 0.0, 0.0);
 #elif SWARD_QUANTITY == SWARD_TILES
-  // Blades of the patch belong to no tile yet: relight/bind_blades.comp tints them.
-  vec3 value = vec3(dot(lit.rgb, vec3(0.2126, 0.7152, 0.0722)));
+  // Shaded, but lighter than in truth, so that hues are told apart in the shade too. Blades of the patch belong to no
+  // tile yet: relight/bind_blades.comp tints them.
+  vec3 value = vec3(sqrt(dot(lit.rgb, vec3(0.2126, 0.7152, 0.0722))));
 #if SWARD_TINT
   value *= tileColour(image);
 #endif

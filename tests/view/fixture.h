@@ -36,6 +36,23 @@ class Viewer {
     return wait(m_lastId, [&](const editor::ViewPicture& p) { return p.final || moving; });
   }
 
+  /// picture() after an error: that stands until another picture is drawn or fails, so both are waited for.
+  std::optional<editor::ViewPicture> recover(editor::ViewRequest request) {
+    request.id = ++m_lastId;
+    int before = 0;
+    {
+      std::lock_guard lock(m_mutex);
+      before = m_events;
+    }
+    const std::uint64_t id = request.id;
+    m_service.request(std::move(request));
+    {
+      std::unique_lock lock(m_mutex);
+      EXPECT_TRUE(m_changed.wait_for(lock, kPatience, [&] { return m_events != before; }));
+    }
+    return wait(id, [](const editor::ViewPicture& p) { return p.final; });
+  }
+
   /// The first picture of a request for which `enough` holds; nothing after an error.
   template <typename Enough>
   std::optional<editor::ViewPicture> wait(std::uint64_t id, const Enough& enough) {

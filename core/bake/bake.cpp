@@ -3,6 +3,8 @@
 #include "bake/session.h"
 #include "scene/lights.h"
 
+#include <algorithm>
+
 namespace sward::bake {
 
 struct Baker::Impl {
@@ -69,6 +71,15 @@ Result<std::shared_ptr<const GroundBake>> Baker::ground(const GroundRequest& req
 Result<base::Hash128> Baker::key(const GroundRequest& request) {
   SWARD_ASSIGN(const Impl::Plan plan, m_impl->plan(request));
   return plan.keys.ground;
+}
+
+Result<bool> Baker::tracesNothing(const GroundRequest& request) {
+  SWARD_ASSIGN(const Impl::Plan plan, m_impl->plan(request));
+  const MemoryCache& memory = m_impl->memory;
+  return memory.contains(plan.keys.seamFit) &&
+         std::all_of(plan.keys.sets.begin(), plan.keys.sets.end(), [&](const SetKeys& keys) {
+           return memory.contains(keys.hits) && memory.contains(keys.visibility) && memory.contains(keys.fit);
+         });
 }
 
 bool Baker::holds(const base::Hash128& groundKey) const {

@@ -75,6 +75,9 @@ class Baker {
   Result<base::Hash128> key(const GroundRequest& request);
   /// Whether ground() would only have to look it up, in memory or on disk.
   bool holds(const base::Hash128& groundKey) const;
+  /// Whether ground() would neither trace nor fit, since all of that is held in memory: true of a ground whose colours
+  /// alone were edited (Options::holdTraced). Errors as key().
+  Result<bool> tracesNothing(const GroundRequest& request);
 
  private:
   struct Impl;

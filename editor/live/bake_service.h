@@ -37,13 +37,17 @@ struct BakeStatus {
   std::uint64_t revision = 0;         ///< of the newest request
 };
 
-/// Bakes grounds on a thread of low priority: coarse first, then half, then full; it begins with a finer one that is
-/// cached already. All calls come from one thread, the UI's, and never wait for a bake.
+/// Bakes grounds on a thread of low priority: coarse first, then half, then full. It begins with a finer one that is
+/// cached already, and with half when only colours changed and that takes no longer than a coarse picture may. All
+/// calls come from one thread, the UI's, and never wait for a bake.
 ///
 /// What a newer request does: when it needs the same ground (another sun, view or exposure), the running bake goes on
 /// and answers both, and a ground that was handed out at full quality is not handed out again. When it needs another
-/// ground, a half or full bake is cancelled; a coarse one is finished first and handed out, so that a picture follows a
-/// slider that moves faster than a coarse bake takes. Only the newest ground is kept for tryPop.
+/// ground, the running bake is cancelled, except the first one of a request: that is finished and handed out, so that a
+/// picture follows a slider that moves faster than bakes do. Only the newest ground is kept for tryPop.
+///
+/// Coarse and half grounds keep the places of the tiles' diamonds of the full ground before them as long as the
+/// project's tiles are set the same, so that the meadow changes under a slider without its tiles jumping.
 class BakeService {
  public:
   struct Options {

@@ -76,7 +76,8 @@ project::Project atQuality(const project::Project& project, Quality quality) {
     if (lightCount(reduced.lights) > kHalfLights) reduced.lights = evenLights(kHalfLights);
   } else if (quality == Quality::Coarse) {
     divideAtMost(reduced, 4);
-    s.sliceSubSamples = 1;
+    // Two, so that the outlines of texels as wide as a hand are not all or nothing.
+    s.sliceSubSamples = std::min(s.sliceSubSamples, 2);
     s.bladeSubSamples = 1;
     if (s.sliceResolution % 2 == 0) s.bladeWidth = s.sliceResolution;
     s.bladeHeight = std::max(s.bladeHeight / 2, 4);

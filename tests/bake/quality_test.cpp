@@ -47,7 +47,7 @@ std::uint64_t rays(const BakeReport& report) {
 
 class EachQuality : public testing::TestWithParam<Quality> {};
 INSTANTIATE_TEST_SUITE_P(All, EachQuality, testing::Values(Quality::Coarse, Quality::Half, Quality::Full),
-                         [](const auto& info) { return std::string(qualityName(info.param)); });
+                         [](const auto& quality) { return std::string(qualityName(quality.param)); });
 
 TEST_P(EachQuality, StaysValidAndKeepsTheTilesSize) {
   Project odd = smallProject();

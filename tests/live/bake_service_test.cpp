@@ -214,7 +214,9 @@ TEST(BakeService, WhatIsOnTheDiskComesAtOnceAtFullQuality) {
     service.request(ofHeight(0.2), 1);
     const auto grounds = drain(service);
     EXPECT_EQ(grounds.back().quality, Quality::Full);
-    if (warm) EXPECT_EQ(grounds.size(), 1u);
+    if (warm) {
+      EXPECT_EQ(grounds.size(), 1u);
+    }
   }
   std::filesystem::remove_all(folder);
 }

@@ -154,20 +154,26 @@ TEST(CanopyLight, AgreesWithRaysOnTheWhole) {
   const CanopyLight light(*field, options.sliceResolution / 2, options.slices, lights, {});
   for (const LayerHits& set : hits) {
     const auto arriving = light.arriving(set, {});
-    double rays = 0.0, medium = 0.0;
+    const std::vector<float> everything(set.hits.size(), 1.0f);
+    double rays = 0.0, medium = 0.0, bare = 0.0;
     for (std::size_t d = 0; d < lights.size(); ++d) {
       const LayerLuminance traced = sampleLuminance(*scene, set, lights[d], {}).value();
       const LayerLuminance spread = luminanceOf(set, arriving[d], lights[d]);
+      const LayerLuminance free = luminanceOf(set, everything, lights[d]);
       rays += sum(traced.reflected) + sum(traced.transmitted);
       medium += sum(spread.reflected) + sum(spread.transmitted);
+      bare += sum(free.reflected) + sum(free.transmitted);
     }
-    EXPECT_NEAR(medium / rays, 1.0, 0.1) << layerSetName(set.set);
+    EXPECT_LT(rays, 0.75 * bare) << "there is shade to speak of";
+    // In the dark under the grass a share of next to nothing does not show: there by the light without grass.
+    EXPECT_NEAR(medium, rays, 0.1 * rays + 0.02 * bare) << layerSetName(set.set);
     SamplingOptions many = options;
     many.visibilityDirections = 64;
     const LayerVisibility traced = sampleVisibility(*scene, set, many, {}).value();
     const LayerVisibility spread = visibilityOf(set, arriving, lights);
     const double tracedSky = sum(traced.skyReflected) + sum(traced.skyTransmitted);
-    EXPECT_NEAR((sum(spread.skyReflected) + sum(spread.skyTransmitted)) / tracedSky, 1.0, 0.12)
+    EXPECT_NEAR(sum(spread.skyReflected) + sum(spread.skyTransmitted), tracedSky,
+                0.1 * tracedSky + 0.02 * static_cast<double>(set.texels()))
         << layerSetName(set.set);
   }
 }

@@ -85,7 +85,12 @@ TEST(Thumbnail, CastsAShadowOnTheGround) {
   for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
     shadow += picture.rgba[i + 3] > 40 && picture.rgba[i + 3] < 200 && picture.rgba[i] == 0 ? 1 : 0;
   }
-  EXPECT_GT(shadow, 200);
+  EXPECT_GT(shadow, 100);
+  options.aboveDeg = -10.0;  // from below the ground nothing of it is seen
+  const Thumbnail below = drawn(board({0.5f, 0.5f, 0.5f, 1.0f}), options);
+  for (std::size_t i = 0; i < below.rgba.size(); i += 4) {
+    ASSERT_TRUE(below.rgba[i] != 0 || below.rgba[i + 3] == 0);
+  }
 }
 
 TEST(Thumbnail, IsTheSameOnAnyNumberOfThreads) {

@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/glm.hpp>
+
 namespace sward::bake {
 
 /// What happened to one node of the bake graph.
@@ -36,9 +38,14 @@ struct BakeReport {
 
 /// A ground that is wanted.
 struct GroundRequest {
-  const project::Project& project;  ///< valid, at full quality
+  const project::Project& project;  ///< valid, as at full quality
   Quality quality = Quality::Full;
+  /// Where the tiles' diamonds shall lie (layoutOf another ground), so that tiles do not jump between pictures; empty,
+  /// or unfit for these tiles: they are chosen, as for a render.
+  std::vector<glm::ivec2> layout{};
 };
+/// The places of a ground's diamonds, in slabs of blades from the patch's corner.
+std::vector<glm::ivec2> layoutOf(const GroundBake& ground);
 
 /// Walks the bake graph (design.md) from the ground's end: a node whose result is cached asks nothing of its inputs.
 /// Holds the memory cache; the disk cache is optional. Not thread-safe: one per thread of work.
@@ -48,6 +55,9 @@ class Baker {
     /// Of results held in memory. The default is enough for the results of two or three projects of ordinary size; a
     /// cold bake as a whole stays under 1 GiB.
     std::uint64_t memoryLimitBytes = std::uint64_t{192} << 20;
+    /// Holds hits, visibility and fits in memory as well, so that colours are edited without the disk; for a program
+    /// that bakes the same patch again and again.
+    bool holdTraced = false;
   };
   explicit Baker(std::optional<DiskCache> cache = {});
   Baker(std::optional<DiskCache> cache, const Options& options);
@@ -70,6 +80,11 @@ class Baker {
   /// project nothing is traced again.
   Result<std::shared_ptr<const Inspection>> inspection(const project::Project& project, const JobContext& job,
                                                        BakeReport* report = nullptr);
+  Result<std::shared_ptr<const Inspection>> inspection(const GroundRequest& request, const JobContext& job,
+                                                       BakeReport* report = nullptr);
+  /// Whether ground() would neither trace nor fit, since all of that is held in memory: true of a ground whose colours
+  /// alone were edited (Options::holdTraced). Errors as key().
+  Result<bool> tracesNothing(const GroundRequest& request);
 
  private:
   struct Impl;

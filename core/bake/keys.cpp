@@ -1,8 +1,6 @@
 #include "bake/keys.h"
 
 #include "bake/plants.h"
-#include "base/file.h"
-#include "mesh/gltf_read.h"
 #include "project/value_hash.h"
 
 #include <algorithm>
@@ -41,30 +39,14 @@ std::string_view instructionSet() {
   return "sse";
 }
 
-Result<Hash128> fileHash(const std::filesystem::path& path) {
-  SWARD_ASSIGN(const std::vector<std::byte> data, base::readFile(path));
-  return base::hashBytes(data);
-}
-
-/// The bytes of the file and of everything it draws in.
-Result<Hash128> gltfHash(const std::filesystem::path& path) {
-  SWARD_ASSIGN(const std::vector<std::filesystem::path> files, mesh::gltfClosure(path));
-  Hasher hasher;
-  for (const auto& file : files) {
-    SWARD_ASSIGN(const Hash128 hash, fileHash(file));
-    hasher.add(std::string_view(file.filename().native())).add(hash);
-  }
-  return hasher.finish();
-}
-
 struct PlantHash {
   Hash128 shape, colour;
 };
 
-Result<PlantHash> plantHash(const project::Project& project, const project::Plant& plant) {
+Result<PlantHash> plantHash(const project::Project& project, const project::Plant& plant, AssetHashes& assets) {
   Hash128 file{};
   if (plant.kind == project::PlantKind::Gltf) {
-    SWARD_ASSIGN(file, gltfHash(project.resolve(plant.gltf.path)));
+    SWARD_ASSIGN(file, assets.gltf(project.resolve(plant.gltf.path)));
   }
   const auto hashRole = [&](Role role) {
     Hasher hasher;
@@ -77,13 +59,16 @@ Result<PlantHash> plantHash(const project::Project& project, const project::Plan
 
 struct PatchHash {
   Hash128 shape, colour, soil;
+  std::vector<Hash128> plants;
 };
 
-Result<PatchHash> patchHash(const project::Project& project) {
+Result<PatchHash> patchHash(const project::Project& project, AssetHashes& assets) {
+  std::vector<Hash128> plants;
   Hasher shape = start("patch", kPatchVersion), colour = start("colours", kSurfaceVersion);
   shape.add(project.patch.sideM).add(project.patch.seed).add(project.patch.plants.size());
   for (std::size_t i = 0; i < project.patch.plants.size(); ++i) {
-    SWARD_ASSIGN(const PlantHash plant, plantHash(project, project.patch.plants[i]));
+    SWARD_ASSIGN(const PlantHash plant, plantHash(project, project.patch.plants[i], assets));
+    plants.push_back(start("model", kPatchVersion).add(plant.shape).add(plant.colour).finish());
     shape.add(plantCount(project, i)).add(plant.shape);
     colour.add(plant.colour);
   }
@@ -91,22 +76,26 @@ Result<PatchHash> patchHash(const project::Project& project) {
   soil.add(project.patch.sideM).add(project.patch.seed);
   project::hashValues(soil, project.patch.soil, Role::Colour);
   if (!project.patch.soil.texture.empty()) {
-    SWARD_ASSIGN(const Hash128 texture, fileHash(project.resolve(project.patch.soil.texture)));
+    SWARD_ASSIGN(const Hash128 texture, assets.file(project.resolve(project.patch.soil.texture)));
     soil.add(texture);
   }
-  return PatchHash{shape.finish(), colour.finish(), soil.finish()};
+  return PatchHash{shape.finish(), colour.finish(), soil.finish(), std::move(plants)};
 }
 
 bool isBlade(trace::LayerSet set) {
   return set != trace::LayerSet::Slices && set != trace::LayerSet::Ground;
 }
 
-Hash128 hitsKey(const Hash128& patch, trace::LayerSet set, const trace::SamplingOptions& options) {
+Hash128 hitsKey(const Hash128& patch, trace::LayerSet set, const trace::SamplingOptions& options, Sampler sampler) {
   const trace::LayerShape shape = trace::layerShape(set, options);
   Hasher hasher = start("hits", kHitsVersion);
   hasher.add(patch).add(set).add(shape.width).add(shape.height).add(shape.layers);
   hasher.add(isBlade(set) ? options.bladeSubSamples : options.sliceSubSamples).add(options.seed);
-  hasher.add(instructionSet()).add(RTC_VERSION);
+  if (sampler == Sampler::Passes) {
+    hasher.add(std::string_view("passes"));
+  } else {
+    hasher.add(instructionSet()).add(RTC_VERSION);
+  }
   return hasher.finish();
 }
 
@@ -119,28 +108,43 @@ Hash128 fitKey(const SetKeys& keys, const lpt::FitOptions& options) {
 }
 
 SetKeys setKeys(const project::Project& project, const PatchHash& patch, trace::LayerSet set,
-                std::span<const glm::dvec3> lights) {
+                std::span<const glm::dvec3> lights, Sampler sampler) {
   SetKeys keys;
-  keys.hits = hitsKey(patch.shape, set, project.sampling);
+  keys.hits = hitsKey(patch.shape, set, project.sampling, sampler);
   for (const glm::dvec3& light : lights) {
     Hasher hasher = start("luminance", kLuminanceVersion);
-    keys.luminance.push_back(hasher.add(keys.hits).add(light.x).add(light.y).add(light.z).finish());
+    hasher.add(keys.hits).add(light.x).add(light.y).add(light.z);
+    if (sampler == Sampler::Passes) hasher.add(project.sampling.sliceResolution).add(project.sampling.slices);
+    keys.luminance.push_back(hasher.finish());
   }
   Hasher visibility = start("visibility", kVisibilityVersion);
-  keys.visibility =
-      visibility.add(keys.hits).add(project.sampling.visibilityDirections).add(project.sampling.seed).finish();
+  visibility.add(keys.hits).add(project.sampling.visibilityDirections).add(project.sampling.seed);
+  if (sampler == Sampler::Passes) {
+    // Seen from the lights; and the medium has a voxel for some texels of the slices.
+    visibility.add(project.sampling.sliceResolution).add(project.sampling.slices).add(lights.size());
+    for (const Hash128& light : keys.luminance) visibility.add(light);
+  }
+  keys.visibility = visibility.finish();
   Hasher surface = start("surface", kSurfaceVersion);
   keys.surface = surface.add(keys.hits).add(set == trace::LayerSet::Ground ? patch.soil : patch.colour).finish();
   keys.fit = fitKey(keys, fitOptionsOf(project, set));
   return keys;
 }
 
-Hash128 tilesKey(const GroundKeys& keys, const project::Project& project) {
+Hash128 mapKey(const tiles::TileOptions& t) {
+  // Of the tiles only the colours of their edges count.
+  Hasher hasher = start("map", kGroundVersion);
+  hasher.add(t.coloursPerAxis).add(t.tilesPerPair).add(t.mapWidth).add(t.mapHeight).add(t.map).add(t.seed);
+  return hasher.finish();
+}
+
+Hash128 tilesKey(const GroundKeys& keys, const project::Project& project, const std::vector<glm::ivec2>& layout) {
   const tiles::TileOptions& t = project.tiles;
   Hasher hasher = start("tiles", kTilesVersion);
   hasher.add(keys.seamFit).add(keys.of(trace::LayerSet::Slices).surface).add(project.sampling.blades);
   hasher.add(t.resolution).add(t.coloursPerAxis).add(t.tilesPerPair).add(t.overlap).add(t.apron);
   hasher.add(t.seam).add(t.domain).add(t.seed);
+  for (const glm::ivec2& diamond : layout) hasher.add(diamond.x).add(diamond.y);
   return hasher.finish();
 }
 
@@ -173,17 +177,20 @@ bool sameGroundValues(const project::Project& a, const project::Project& b) {
                     samePlant);
 }
 
-Result<GroundKeys> groundKeys(const project::Project& project, std::span<const glm::dvec3> lights) {
-  SWARD_ASSIGN(const PatchHash patch, patchHash(project));
+Result<GroundKeys> groundKeys(const project::Project& project, std::span<const glm::dvec3> lights,
+                              const GroundSettings& settings, AssetHashes& assets) {
+  SWARD_ASSIGN(PatchHash patch, patchHash(project, assets));
   GroundKeys keys;
   keys.patch = patch.shape;
+  keys.plants = std::move(patch.plants);
+  keys.map = mapKey(project.tiles);
   for (const trace::LayerSet set : trace::kAllLayerSets) {
-    keys.sets[static_cast<std::size_t>(set)] = setKeys(project, patch, set, lights);
+    keys.sets[static_cast<std::size_t>(set)] = setKeys(project, patch, set, lights, settings.sampler);
   }
   lpt::FitOptions seam = project.fit;
   seam.basis = lpt::Basis::Lpt;
   keys.seamFit = fitKey(keys.of(trace::LayerSet::Slices), seam);
-  keys.tiles = tilesKey(keys, project);
+  keys.tiles = tilesKey(keys, project, settings.layout);
   Hasher ground = start("ground", kGroundVersion);
   for (const trace::LayerSet set : trace::kAllLayerSets) {
     SetKeys& entry = keys.sets[static_cast<std::size_t>(set)];

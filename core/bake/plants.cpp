@@ -41,6 +41,13 @@ Result<mesh::Model> plantModel(const project::Project& project, std::size_t plan
 }
 
 Result<scene::Patch> growPatch(const project::Project& project) {
+  return growPatch(project, [&](std::size_t plant, int variant) -> Result<std::shared_ptr<const mesh::Model>> {
+    SWARD_ASSIGN(mesh::Model model, plantModel(project, plant, variant));
+    return std::make_shared<const mesh::Model>(std::move(model));
+  });
+}
+
+Result<scene::Patch> growPatch(const project::Project& project, const ModelSource& source) {
   std::vector<std::shared_ptr<const mesh::Model>> models;
   std::vector<scene::PlantScatter> plants;
   for (std::size_t i = 0; i < project.patch.plants.size(); ++i) {
@@ -51,9 +58,9 @@ Result<scene::Patch> growPatch(const project::Project& project) {
     scatter.tiltDeg = plant.tiltDeg;
     scatter.clumping = plant.clumping;
     for (int variant = 0; variant < variantCount(plant); ++variant) {
-      SWARD_ASSIGN(mesh::Model model, plantModel(project, i, variant));
+      SWARD_ASSIGN(std::shared_ptr<const mesh::Model> model, source(i, variant));
       scatter.models.push_back(static_cast<std::uint32_t>(models.size()));
-      models.push_back(std::make_shared<const mesh::Model>(std::move(model)));
+      models.push_back(std::move(model));
     }
     plants.push_back(std::move(scatter));
   }

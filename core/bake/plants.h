@@ -5,6 +5,7 @@
 #include "project/project.h"
 #include "scene/patch.h"
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -17,8 +18,12 @@ int variantCount(const project::Plant& plant);
 /// patch's seed, the plant's place in the list and the variant.
 Result<mesh::Model> plantModel(const project::Project& project, std::size_t plant, int variant);
 
+/// Gives model `variant` of a plant: plantModel, or what is remembered of it.
+using ModelSource = std::function<Result<std::shared_ptr<const mesh::Model>>(std::size_t plant, int variant)>;
+
 /// The patch as it is traced: every plant's models and all instances; heightM is at least kMinHeightM.
 Result<scene::Patch> growPatch(const project::Project& project);
+Result<scene::Patch> growPatch(const project::Project& project, const ModelSource& models);
 
 /// Layers of a bare or very low patch still have a thickness (metres).
 inline constexpr double kMinHeightM = 0.01;

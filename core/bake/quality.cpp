@@ -7,6 +7,23 @@
 namespace sward::bake {
 namespace {
 
+// Ten coefficients a column need no more directions than that, since a column has several layers.
+constexpr int kCoarseLights = 8;
+constexpr int kHalfLights = 10;
+constexpr int kHalfDirections = 5;
+constexpr int kCoarseSegments = 3;  ///< of a blade: its bend stays, and the time goes with the triangles
+
+int lightCount(const scene::LightOptions& lights) {
+  return lights.pattern == scene::LightPattern::List ? static_cast<int>(lights.directions.size()) : lights.count;
+}
+
+/// Lights that spread evenly over the hemisphere. Where they stand hardly shows once a polynomial is fitted to them.
+scene::LightOptions evenLights(int count) {
+  scene::LightOptions lights;
+  lights.count = count;
+  return lights;
+}
+
 /// Sizes of the sampling and the tiles divided by a power of two.
 void divide(project::Project& project, int divisor) {
   trace::SamplingOptions& s = project.sampling;
@@ -50,12 +67,25 @@ const char* qualityName(Quality quality) {
 
 project::Project atQuality(const project::Project& project, Quality quality) {
   project::Project reduced = project;
+  trace::SamplingOptions& s = reduced.sampling;
   if (quality == Quality::Half) {
     divideAtMost(reduced, 2);
+    s.sliceSubSamples = (s.sliceSubSamples + 1) / 2;
+    s.bladeSubSamples = (s.bladeSubSamples + 1) / 2;
+    s.visibilityDirections = std::min(s.visibilityDirections, kHalfDirections);
+    if (lightCount(reduced.lights) > kHalfLights) reduced.lights = evenLights(kHalfLights);
   } else if (quality == Quality::Coarse) {
     divideAtMost(reduced, 4);
-    reduced.sampling.sliceSubSamples = 1;
-    reduced.sampling.bladeSubSamples = 1;
+    // Two, so that the outlines of texels as wide as a hand are not all or nothing.
+    s.sliceSubSamples = std::min(s.sliceSubSamples, 2);
+    s.bladeSubSamples = 1;
+    if (s.sliceResolution % 2 == 0) s.bladeWidth = s.sliceResolution;
+    s.bladeHeight = std::max(s.bladeHeight / 2, 4);
+    reduced.lights = evenLights(kCoarseLights);
+    s.visibilityDirections = kCoarseLights;  // seen from where it is lit
+    for (project::Plant& plant : reduced.patch.plants) {
+      plant.grass.segments = std::min(plant.grass.segments, kCoarseSegments);
+    }
   }
   return reduced;
 }

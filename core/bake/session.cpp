@@ -16,6 +16,19 @@ using trace::LayerSet;
 std::uint64_t bytesOf(const trace::LayerSurface& surface) {
   return (surface.reflectance.size() + surface.transmittance.size()) * sizeof(glm::vec3);
 }
+std::uint64_t bytesOf(const trace::LayerHits& hits) {
+  return hits.hits.size() * sizeof(trace::Hit) + hits.texels() * 5 + hits.columnStart.size() * 4;
+}
+std::uint64_t bytesOf(const trace::LayerLuminance& luminance) {
+  return luminance.reflected.size() * 2 * sizeof(float);
+}
+std::uint64_t bytesOf(const trace::LayerVisibility& visibility) {
+  return visibility.visibility.size() * 3 * sizeof(float);
+}
+std::uint64_t bytesOf(const lpt::Fit& fit) {
+  return (fit.coefficients.size() + fit.layerWeight.size()) * sizeof(float) +
+         static_cast<std::uint64_t>(fit.columns) * 13;
+}
 std::uint64_t bytesOf(const lpt::LayerStack& stack) {
   return stack.totalBytes();
 }
@@ -29,9 +42,23 @@ std::uint64_t bytesOf(const Inspection& inspection) {
   for (const StackInspection& blade : inspection.blades) add(blade);
   return bytes;
 }
+std::uint64_t bytesOf(const tiles::TileSet& set) {
+  return set.owner.size() + set.tiles.size() * 12;
+}
+std::uint64_t bytesOf(const tiles::TileMap& map) {
+  return map.tiles.size();
+}
+std::uint64_t bytesOf(const mesh::Model& model) {
+  return model.positions.size() * 60 + model.triangles.size() * 16;
+}
 std::uint64_t bytesOf(const scene::Patch& patch) {
   std::uint64_t bytes = patch.instances.size() * sizeof(scene::Instance);
-  for (const auto& model : patch.models) bytes += model->positions.size() * 60 + model->triangles.size() * 16;
+  for (const auto& model : patch.models) bytes += bytesOf(*model);
+  return bytes;
+}
+std::uint64_t bytesOf(const GroundBake& ground) {
+  std::uint64_t bytes = bytesOf(ground.slices) + bytesOf(ground.soil) + ground.map.tiles.size();
+  for (const lpt::LayerStack& blade : ground.blades) bytes += bytesOf(blade);
   return bytes;
 }
 
@@ -49,14 +76,15 @@ std::string lightName(LayerSet set, std::size_t light) {
 
 }  // namespace
 
-Session::Session(const project::Project& project, std::vector<glm::dvec3> lights, GroundKeys keys,
-                 const JobContext& job, MemoryCache& memory, std::optional<DiskCache>& disk)
-    : m_project(project),
-      m_lights(std::move(lights)),
-      m_keys(std::move(keys)),
+Session::Session(const Input& input, const JobContext& job)
+    : m_project(input.project),
+      m_lights(input.lights),
+      m_settings(input.settings),
+      m_keys(input.keys),
       m_job(job),
-      m_memory(memory),
-      m_disk(disk) {
+      m_memory(input.memory),
+      m_disk(input.disk),
+      m_holdTraced(input.holdTraced) {
   plan();
 }
 
@@ -89,6 +117,7 @@ void Session::plan() {
     planNode("stack", name, 0.2 * rays);
   };
   for (const LayerSet set : trace::kAllLayerSets) planSet(set);
+  planNode("map", "", 0.2);
   planNode("ground", "", 0.5);
 }
 
@@ -126,7 +155,7 @@ std::shared_ptr<const T> Session::findOnDisk(const std::string& kind, const base
     report.bytes = payload->size();
     auto shared = std::make_shared<const T>(std::move(*value));
     m_held[key] = shared;
-    if (keep == Keep::MemoryAndDisk) m_memory.put(key, shared, report.bytes);
+    if (keep == Keep::MemoryAndDisk) m_memory.put(key, shared, bytesOf(*shared));
     return shared;
   }
   return nullptr;
@@ -151,20 +180,18 @@ template <typename T>
 void Session::remember(const std::string& kind, const base::Hash128& key, Keep keep, const Shared<T>& value,
                        NodeReport& report) {
   m_held[key] = value;
+  report.bytes = bytesOf(*value);
   if constexpr (requires(base::ByteWriter & out) { save(out, *value); }) {
-    if (keep == Keep::Disk || keep == Keep::MemoryAndDisk) {
+    if (m_disk && (keep == Keep::Disk || keep == Keep::MemoryAndDisk)) {
       const std::vector<std::byte> payload = payloadOf(*value);
       report.bytes = payload.size();
-      if (m_disk) {
-        if (const auto stored = m_disk->put(kind, key, payload); !stored.ok()) {
-          // The result is still good; only the next run has to make it again. One message is enough.
-          if (!std::exchange(m_storeFailed, true)) m_report.warnings.push_back(stored.error().text());
-        }
+      if (const auto stored = m_disk->put(kind, key, payload); !stored.ok()) {
+        // The result is still good; only the next run has to make it again. One message is enough.
+        if (!std::exchange(m_storeFailed, true)) m_report.warnings.push_back(stored.error().text());
       }
     }
   }
-  if constexpr (requires { bytesOf(*value); }) report.bytes = bytesOf(*value);
-  if (keep == Keep::Memory || keep == Keep::MemoryAndDisk) m_memory.put(key, value, report.bytes);
+  if (keep == Keep::Memory || keep == Keep::MemoryAndDisk) m_memory.put(key, value, bytesOf(*value));
 }
 
 template <typename T, typename Make>
@@ -199,12 +226,26 @@ Result<std::shared_ptr<const scene::Patch>> Session::patch() {
   base::Hasher key;
   key.add("instances").add(m_keys.patch).add(m_keys.of(LayerSet::Slices).surface);
   return node<scene::Patch>("patch", "", key.finish(), Keep::Memory, [&](const JobContext&) -> Result<scene::Patch> {
-    SWARD_ASSIGN(scene::Patch grown, growPatch(m_project));
+    SWARD_ASSIGN(scene::Patch grown,
+                 growPatch(m_project, [this](std::size_t plant, int variant) { return model(plant, variant); }));
     for (const auto& model : grown.models) {
       for (const std::string& warning : model->warnings) m_report.warnings.push_back(warning);
     }
     return grown;
   });
+}
+
+/// Models from files are read once for as long as they fit in memory: reading takes longer than growing grass.
+Result<std::shared_ptr<const mesh::Model>> Session::model(std::size_t plant, int variant) {
+  const bool remembered = m_project.patch.plants[plant].kind == project::PlantKind::Gltf;
+  const base::Hash128& key = m_keys.plants[plant];
+  if (remembered) {
+    if (auto known = m_memory.get<mesh::Model>(key)) return known;
+  }
+  SWARD_ASSIGN(mesh::Model made, plantModel(m_project, plant, variant));
+  auto shared = std::make_shared<const mesh::Model>(std::move(made));
+  if (remembered) m_memory.put(key, shared, bytesOf(*shared));
+  return shared;
 }
 
 Result<const trace::PatchScene*> Session::scene() {
@@ -215,12 +256,41 @@ Result<const trace::PatchScene*> Session::scene() {
   return m_scene.get();
 }
 
+Result<const trace::TriangleField*> Session::field() {
+  if (!m_field) {
+    SWARD_ASSIGN(auto grown, patch());
+    SWARD_ASSIGN(m_field, trace::TriangleField::create(std::move(grown), {m_job.stop, {}, m_job.threads}));
+  }
+  return m_field.get();
+}
+
+Result<const trace::CanopyLight*> Session::canopy() {
+  if (!m_canopy) {
+    SWARD_ASSIGN(const trace::TriangleField* triangles, field());
+    const trace::SamplingOptions& s = m_project.sampling;
+    // Voxels of two by two columns: finer ones leave single blades apart, which cast no shadow in a medium.
+    m_canopy = std::make_unique<trace::CanopyLight>(*triangles, std::max(s.sliceResolution / 2, 1), s.slices, m_lights,
+                                                    JobContext{m_job.stop, {}, m_job.threads});
+    if (m_job.cancelled()) return Error::cancelled();
+  }
+  return m_canopy.get();
+}
+
+Result<trace::LayerHits> Session::makeHits(LayerSet set, const JobContext& job) {
+  if (m_settings.sampler == Sampler::Rays) {
+    SWARD_ASSIGN(const trace::PatchScene* traced, scene());
+    return trace::sampleHits(*traced, set, m_project.sampling, job);
+  }
+  if (m_passed.empty()) {
+    SWARD_ASSIGN(const trace::TriangleField* triangles, field());
+    SWARD_ASSIGN(m_passed, trace::passHits(*triangles, m_project.sampling, job));
+  }
+  return m_passed[static_cast<std::size_t>(set)];
+}
+
 Result<std::shared_ptr<const trace::LayerHits>> Session::hits(LayerSet set) {
-  return node<trace::LayerHits>("hits", trace::layerSetName(set), m_keys.of(set).hits, Keep::Disk,
-                                [&](const JobContext& job) -> Result<trace::LayerHits> {
-                                  SWARD_ASSIGN(const trace::PatchScene* traced, scene());
-                                  return trace::sampleHits(*traced, set, m_project.sampling, job);
-                                });
+  return node<trace::LayerHits>("hits", trace::layerSetName(set), m_keys.of(set).hits, keepTraced(),
+                                [&](const JobContext& job) { return makeHits(set, job); });
 }
 
 Result<std::shared_ptr<const trace::LayerSurface>> Session::surface(LayerSet set) {
@@ -236,26 +306,46 @@ Result<std::shared_ptr<const trace::LayerSurface>> Session::surface(LayerSet set
                                    });
 }
 
+/// What reaches the hits of a set from each light, by the medium.
+Result<const std::vector<std::vector<float>>*> Session::arriving(LayerSet set) {
+  if (const auto made = m_arriving.find(set); made != m_arriving.end()) return &made->second;
+  SWARD_ASSIGN(const auto found, hits(set));
+  SWARD_ASSIGN(const trace::CanopyLight* light, canopy());
+  auto arrives = light->arriving(*found, {m_job.stop, {}, m_job.threads});
+  if (m_job.cancelled()) return Error::cancelled();
+  return &(m_arriving[set] = std::move(arrives));
+}
+
+Result<trace::LayerVisibility> Session::makeVisibility(LayerSet set, const JobContext& job) {
+  SWARD_ASSIGN(const auto found, hits(set));
+  if (m_settings.sampler == Sampler::Passes) {
+    SWARD_ASSIGN(const auto* arrives, arriving(set));
+    return trace::visibilityOf(*found, *arrives, m_lights);
+  }
+  SWARD_ASSIGN(const trace::PatchScene* traced, scene());
+  SWARD_ASSIGN(const trace::LayerVisibility sampled, trace::sampleVisibility(*traced, *found, m_project.sampling, job));
+  return asStored(sampled);
+}
+
+Result<trace::LayerLuminance> Session::makeLuminance(LayerSet set, std::size_t light, const JobContext& job) {
+  SWARD_ASSIGN(const auto found, hits(set));
+  if (m_settings.sampler == Sampler::Passes) {
+    SWARD_ASSIGN(const auto* arrives, arriving(set));
+    return trace::luminanceOf(*found, (*arrives)[light], m_lights[light]);
+  }
+  SWARD_ASSIGN(const trace::PatchScene* traced, scene());
+  SWARD_ASSIGN(const trace::LayerLuminance sampled, trace::sampleLuminance(*traced, *found, m_lights[light], job));
+  return asStored(sampled);
+}
+
 Result<std::shared_ptr<const trace::LayerVisibility>> Session::visibility(LayerSet set) {
-  return node<trace::LayerVisibility>("visibility", trace::layerSetName(set), m_keys.of(set).visibility, Keep::Disk,
-                                      [&](const JobContext& job) -> Result<trace::LayerVisibility> {
-                                        SWARD_ASSIGN(const auto found, hits(set));
-                                        SWARD_ASSIGN(const trace::PatchScene* traced, scene());
-                                        SWARD_ASSIGN(const trace::LayerVisibility sampled,
-                                                     trace::sampleVisibility(*traced, *found, m_project.sampling, job));
-                                        return asStored(sampled);
-                                      });
+  return node<trace::LayerVisibility>("visibility", trace::layerSetName(set), m_keys.of(set).visibility, keepTraced(),
+                                      [&](const JobContext& job) { return makeVisibility(set, job); });
 }
 
 Result<std::shared_ptr<const trace::LayerLuminance>> Session::luminance(LayerSet set, std::size_t light) {
   return node<trace::LayerLuminance>("luminance", lightName(set, light), m_keys.of(set).luminance[light], Keep::Disk,
-                                     [&](const JobContext& job) -> Result<trace::LayerLuminance> {
-                                       SWARD_ASSIGN(const auto found, hits(set));
-                                       SWARD_ASSIGN(const trace::PatchScene* traced, scene());
-                                       SWARD_ASSIGN(const trace::LayerLuminance sampled,
-                                                    trace::sampleLuminance(*traced, *found, m_lights[light], job));
-                                       return asStored(sampled);
-                                     });
+                                     [&](const JobContext& job) { return makeLuminance(set, light, job); });
 }
 
 Result<lpt::Fit> Session::makeFit(LayerSet set, const lpt::FitOptions& options, const JobContext& job) {
@@ -291,7 +381,7 @@ Result<lpt::Fit> Session::makeFit(LayerSet set, const lpt::FitOptions& options, 
 
 Result<std::shared_ptr<const lpt::Fit>> Session::fitWith(LayerSet set, const lpt::FitOptions& options,
                                                          const std::string& what, const base::Hash128& key) {
-  return node<lpt::Fit>("fit", what, key, Keep::Disk,
+  return node<lpt::Fit>("fit", what, key, keepTraced(),
                         [&](const JobContext& job) { return makeFit(set, options, job); });
 }
 
@@ -307,16 +397,19 @@ Result<std::shared_ptr<const lpt::Fit>> Session::seamFit() {
 }
 
 Result<std::shared_ptr<const tiles::TileSet>> Session::tileSet() {
-  return node<tiles::TileSet>(
-      "tiles", "", m_keys.tiles, Keep::MemoryAndDisk, [&](const JobContext& job) -> Result<tiles::TileSet> {
-        SWARD_ASSIGN(const auto fitted, seamFit());
-        SWARD_ASSIGN(const auto found, hits(LayerSet::Slices));
-        SWARD_ASSIGN(const auto shaded, surface(LayerSet::Slices));
-        const trace::LayerVisibility unused;
-        const auto columns = seamColumns({*found, *shaded, unused, *fitted});
-        const int resolution = m_project.sampling.sliceResolution;
-        return tiles::makeTileSet(columns, resolution, resolution / m_project.sampling.blades, m_project.tiles, job);
-      });
+  return node<tiles::TileSet>("tiles", "", m_keys.tiles, Keep::MemoryAndDisk,
+                              [&](const JobContext& job) -> Result<tiles::TileSet> {
+                                SWARD_ASSIGN(const auto fitted, seamFit());
+                                SWARD_ASSIGN(const auto found, hits(LayerSet::Slices));
+                                SWARD_ASSIGN(const auto shaded, surface(LayerSet::Slices));
+                                const trace::LayerVisibility unused;
+                                const auto columns = seamColumns({*found, *shaded, unused, *fitted});
+                                const int resolution = m_project.sampling.sliceResolution;
+                                const int pitch = resolution / m_project.sampling.blades;
+                                std::vector<glm::ivec2> diamonds = m_settings.layout;
+                                for (glm::ivec2& diamond : diamonds) diamond *= pitch;
+                                return tiles::makeTileSet(columns, resolution, pitch, m_project.tiles, job, diamonds);
+                              });
 }
 
 Result<std::shared_ptr<const lpt::LayerStack>> Session::stack(LayerSet set) {
@@ -340,6 +433,14 @@ Result<std::shared_ptr<const lpt::LayerStack>> Session::stack(LayerSet set) {
                                });
 }
 
+Result<std::shared_ptr<const tiles::TileMap>> Session::map() {
+  return node<tiles::TileMap>("map", "", m_keys.map, Keep::Memory, [&](const JobContext&) -> Result<tiles::TileMap> {
+    SWARD_ASSIGN(const auto cut, tileSet());
+    const tiles::TileOptions& t = m_project.tiles;
+    return tiles::makeTileMap(*cut, t.mapWidth, t.mapHeight, t.map, t.seed);
+  });
+}
+
 Result<GroundBake> Session::makeGround(const JobContext&) {
   GroundBake ground;
   ground.patchSideM = m_project.patch.sideM;
@@ -360,8 +461,8 @@ Result<GroundBake> Session::makeGround(const JobContext&) {
   ground.heightM = grown->heightM;
   ground.tiles = *cut;
   ground.bladeOwners = tiles::bladeOwners(*cut, m_project.sampling.blades);
-  SWARD_ASSIGN(ground.map, tiles::makeTileMap(*cut, m_project.tiles.mapWidth, m_project.tiles.mapHeight,
-                                              m_project.tiles.map, m_project.tiles.seed));
+  SWARD_ASSIGN(const auto cells, map());
+  ground.map = *cells;
   return ground;
 }
 

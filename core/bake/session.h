@@ -6,6 +6,7 @@
 #include "bake/memory_cache.h"
 #include "bake/payload.h"
 #include "bake/stacks.h"
+#include "trace/canopy_light.h"
 
 #include <chrono>
 #include <map>
@@ -19,8 +20,17 @@ namespace sward::bake {
 /// One walk of the graph, from the ground down to what is missing. Lives for one call of Baker::ground.
 class Session {
  public:
-  Session(const project::Project& project, std::vector<glm::dvec3> lights, GroundKeys keys, const JobContext& job,
-          MemoryCache& memory, std::optional<DiskCache>& disk);
+  /// What a session works on; must outlive it.
+  struct Input {
+    const project::Project& project;
+    const std::vector<glm::dvec3>& lights;
+    const GroundSettings& settings;
+    const GroundKeys& keys;
+    MemoryCache& memory;
+    std::optional<DiskCache>& disk;
+    bool holdTraced = false;  ///< Baker::Options
+  };
+  Session(const Input& input, const JobContext& job);
 
   Result<std::shared_ptr<const GroundBake>> ground();
   Result<std::shared_ptr<const Inspection>> inspection();
@@ -54,7 +64,15 @@ class Session {
   JobContext jobOf(std::size_t node) const;
 
   Result<Shared<scene::Patch>> patch();
+  Result<Shared<mesh::Model>> model(std::size_t plant, int variant);
   Result<const trace::PatchScene*> scene();
+  Result<const trace::TriangleField*> field();
+  Result<const trace::CanopyLight*> canopy();
+  Result<trace::LayerHits> makeHits(trace::LayerSet set, const JobContext& job);
+  Result<trace::LayerLuminance> makeLuminance(trace::LayerSet set, std::size_t light, const JobContext& job);
+  Result<trace::LayerVisibility> makeVisibility(trace::LayerSet set, const JobContext& job);
+  Result<const std::vector<std::vector<float>>*> arriving(trace::LayerSet set);
+  Keep keepTraced() const { return m_holdTraced ? Keep::MemoryAndDisk : Keep::Disk; }
   Result<Shared<trace::LayerHits>> hits(trace::LayerSet set);
   Result<Shared<trace::LayerSurface>> surface(trace::LayerSet set);
   Result<Shared<trace::LayerVisibility>> visibility(trace::LayerSet set);
@@ -66,17 +84,25 @@ class Session {
   Result<lpt::Fit> makeFit(trace::LayerSet set, const lpt::FitOptions& options, const JobContext& job);
   Result<Shared<tiles::TileSet>> tileSet();
   Result<Shared<lpt::LayerStack>> stack(trace::LayerSet set);
+  Result<Shared<tiles::TileMap>> map();
   Result<GroundBake> makeGround(const JobContext& job);
   Result<Inspection> makeInspection(const JobContext& job);
 
   const project::Project& m_project;
-  std::vector<glm::dvec3> m_lights;
-  GroundKeys m_keys;
+  const std::vector<glm::dvec3>& m_lights;
+  const GroundSettings& m_settings;
+  const GroundKeys& m_keys;
   const JobContext& m_job;
   MemoryCache& m_memory;
   std::optional<DiskCache>& m_disk;
+  bool m_holdTraced;
 
   std::unique_ptr<trace::PatchScene> m_scene;
+  // Of the sampler that passes over all triangles: all layer sets at once, since the passes share their cost.
+  std::unique_ptr<trace::TriangleField> m_field;
+  std::vector<trace::LayerHits> m_passed;
+  std::unique_ptr<trace::CanopyLight> m_canopy;
+  std::map<trace::LayerSet, std::vector<std::vector<float>>> m_arriving;
   std::map<base::Hash128, std::weak_ptr<const void>> m_held;
   BakeReport m_report;
   std::vector<double> m_progressEnd;  ///< of each node, cumulated weights

@@ -4,6 +4,7 @@
 #include "bake/plants.h"
 #include "render/frame_plan.h"
 #include "render/renderer.h"
+#include "report/speed_edit.h"
 #include "report/speed_fit.h"
 #include "report/speed_render.h"
 #include "report/speed_sampling.h"
@@ -148,6 +149,7 @@ Result<std::vector<Row>> speedRows(const SpeedInput& input, const JobContext& jo
   steps.emplace_back("lpt_fit", [&](const JobContext& j) { return single(Result<Row>(lptFitRow(j, input.quick))); });
   steps.emplace_back("drawing", [&](const JobContext& j) { return drawingRows(input, j); });
   steps.emplace_back("render_warm", [&](const JobContext& j) { return single(warmRow(input, j)); });
+  steps.emplace_back("edit_preview", [&](const JobContext& j) { return editPreviewRows(input, j); });
   steps.emplace_back("storage", [&](const JobContext& j) { return Result<std::vector<Row>>(storageRows(j)); });
   std::vector<Row> rows;
   for (std::size_t i = 0; i < steps.size(); ++i) {

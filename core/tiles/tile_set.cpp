@@ -82,6 +82,12 @@ Result<void> checkPatch(int patchResolution, int pitch, const TileOptions& optio
   return {};
 }
 
+bool diamondsFit(std::span<const glm::ivec2> diamonds, int patchResolution, int pitch, const TileOptions& options) {
+  const auto fits = [&](int v) { return v >= 0 && v < patchResolution && v % pitch == 0; };
+  return diamonds.size() == 2 * static_cast<std::size_t>(options.coloursPerAxis) &&
+         std::all_of(diamonds.begin(), diamonds.end(), [&](glm::ivec2 d) { return fits(d.x) && fits(d.y); });
+}
+
 /// Everything that stays the same while layouts are tried.
 struct Assembly {
   const SeamSpace& space;
@@ -169,7 +175,7 @@ std::uint32_t TileSet::patchColumn(int tile, int x, int y) const {
 }
 
 Result<TileSet> makeTileSet(std::span<const SeamColumn> columns, int patchResolution, int pitch,
-                            const TileOptions& options, const JobContext& job) {
+                            const TileOptions& options, const JobContext& job, std::span<const glm::ivec2> diamonds) {
   SWARD_TRY(checkColours(options));
   SWARD_TRY(checkSizes(options));
   SWARD_TRY(checkPatch(patchResolution, pitch, options));
@@ -189,8 +195,12 @@ Result<TileSet> makeTileSet(std::span<const SeamColumn> columns, int patchResolu
   // Many layouts are equally spread; those that show rows least go on to have their seams cut.
   constexpr int kLayouts = 192;
   constexpr std::size_t kCut = 8;
-  auto layouts = spreadDiamonds(patchResolution, pitch, 2 * options.coloursPerAxis, kLayouts, options.seed);
-  chooseLayout(set, evenestLayouts(set, std::move(layouts), columns, kCut, job), assembly, job);
+  if (diamondsFit(diamonds, patchResolution, pitch, options)) {
+    chooseLayout(set, {{diamonds.begin(), diamonds.end()}}, assembly, job);
+  } else {
+    auto layouts = spreadDiamonds(patchResolution, pitch, 2 * options.coloursPerAxis, kLayouts, options.seed);
+    chooseLayout(set, evenestLayouts(set, std::move(layouts), columns, kCut, job), assembly, job);
+  }
   if (job.cancelled()) return Error::cancelled();
   return set;
 }

@@ -60,9 +60,11 @@ struct TileSet {
 /// every tile and cuts its seams; of equally spread diamonds those whose seams cost least. `columns` has
 /// patchResolution^2 entries. Errors: a patch smaller than a diamond, odd sizes, an overlap that does not fit, a pitch
 /// that does not divide the patch and half a tile. A cancelled job returns Error::cancelled(). Same bytes on any number
-/// of threads.
+/// of threads. `diamonds`, when there are as many as the set needs and each lies on the pitch, are taken instead of
+/// chosen: for a picture that changes without its tiles jumping.
 Result<TileSet> makeTileSet(std::span<const SeamColumn> columns, int patchResolution, int pitch,
-                            const TileOptions& options, const JobContext& job);
+                            const TileOptions& options, const JobContext& job,
+                            std::span<const glm::ivec2> diamonds = {});
 
 /// What a texel of the tile with its apron shows: one patch column, or in the apron a mean of several that may stand
 /// there (one entry for all neighbours that agree, with their summed weight). x, y in [-apron, resolution + apron).

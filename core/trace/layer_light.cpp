@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "scene/lights.h"
+#include "trace/layer_pattern.h"
 #include "trace/occlusion.h"
 #include "trace/tile_order.h"
 
@@ -86,38 +87,16 @@ struct TurnedDirections {
   std::vector<char> seesBlade;  ///< whether a viewer of this layer set looks from there
 };
 
-glm::dvec2 viewerSide(LayerSet set) {
-  switch (set) {
-    case LayerSet::BladesPosX:
-      return {1.0, 0.0};
-    case LayerSet::BladesNegX:
-      return {-1.0, 0.0};
-    case LayerSet::BladesPosY:
-      return {0.0, 1.0};
-    case LayerSet::BladesNegY:
-      return {0.0, -1.0};
-    default:
-      return {0.0, 0.0};
-  }
-}
-
 std::array<TurnedDirections, kTurns> turnedDirections(LayerSet set, int count) {
-  const glm::dvec2 viewer = viewerSide(set);
-  const bool fromAbove = viewer == glm::dvec2(0.0);
   std::array<TurnedDirections, kTurns> turns;
   for (int turn = 0; turn < kTurns; ++turn) {
     TurnedDirections& out = turns[static_cast<std::size_t>(turn)];
-    bool any = false;
     for (const glm::dvec3& d : scene::fibonacciHemisphere(count)) {
       glm::dvec3 turned = d;
       for (int quarter = 0; quarter < turn; ++quarter) turned = {-turned.y, turned.x, turned.z};
-      const bool seen = fromAbove || glm::dot(viewer, glm::dvec2(turned)) > 0.0;
-      any = any || seen;
       out.directions.push_back(turned);
-      out.seesBlade.push_back(seen ? 1 : 0);
     }
-    // With one or two directions none may lie on the viewer's side: then all stand for it.
-    if (!any) std::fill(out.seesBlade.begin(), out.seesBlade.end(), char{1});
+    out.seesBlade = viewersOf(set, out.directions);
   }
   return turns;
 }

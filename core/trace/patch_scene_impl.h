@@ -1,5 +1,6 @@
 #pragma once
 
+#include "trace/layer_pattern.h"
 #include "trace/patch_scene.h"
 
 #include <atomic>
@@ -52,12 +53,6 @@ inline RTCIntersectContext packetContext(RTCIntersectContextFlags flags) {
   context.flags = flags;
   return context;
 }
-
-/// Which triangle of which instance was hit.
-struct SurfaceId {
-  std::uint32_t instance = 0;
-  std::uint32_t triangle = 0;
-};
 
 struct PatchScene::Impl {
   std::shared_ptr<const scene::Patch> patch;

@@ -59,24 +59,34 @@ Result<std::vector<mesh::Bounds>> modelBoxes(const scene::Patch& patch) {
   return boxes;
 }
 
+/// The box of an instance in the world, or what is wrong with it.
+Result<mesh::Bounds> instanceBox(const scene::Patch& patch, const scene::Instance& instance,
+                                 const mesh::Bounds& model) {
+  const mesh::Bounds box = transformedBounds(model, instance.worldFromModel);
+  const std::string where = "plant " + patch.models[instance.model]->name;
+  if (!isFinite(box.low) || !isFinite(box.high)) {
+    return Error::badInput("an instance's transform is not finite", where, "Check its size and tilt.");
+  }
+  const double reach = static_cast<double>(std::max({-box.low.x, -box.low.y, box.high.x, box.high.y}));
+  if (reach > kMaxReach * patch.sideM) {
+    return Error::badInput("the plant is more than " + std::to_string(kMaxReach) + " times as wide as the patch", where,
+                           "Make the patch larger or the plant smaller.");
+  }
+  return box;
+}
+
+bool standsThere(const scene::Patch& patch, const scene::Instance& instance) {
+  SWARD_CHECK_LT(instance.model, patch.models.size());
+  return patch.models[instance.model] && !patch.models[instance.model]->empty();
+}
+
 Result<std::vector<Placement>> placeCopies(const scene::Patch& patch) {
   SWARD_ASSIGN(const std::vector<mesh::Bounds> boxes, modelBoxes(patch));
   std::vector<Placement> placements;
   for (std::size_t i = 0; i < patch.instances.size(); ++i) {
     const scene::Instance& instance = patch.instances[i];
-    SWARD_CHECK_LT(instance.model, patch.models.size());
-    if (!patch.models[instance.model] || patch.models[instance.model]->empty()) continue;
-    const mesh::Bounds box = transformedBounds(boxes[instance.model], instance.worldFromModel);
-    if (!isFinite(box.low) || !isFinite(box.high)) {
-      return Error::badInput("an instance's transform is not finite", "plant " + patch.models[instance.model]->name,
-                             "Check its size and tilt.");
-    }
-    const double reach = static_cast<double>(std::max({-box.low.x, -box.low.y, box.high.x, box.high.y}));
-    if (reach > kMaxReach * patch.sideM) {
-      return Error::badInput("the plant is more than " + std::to_string(kMaxReach) + " times as wide as the patch",
-                             "plant " + patch.models[instance.model]->name,
-                             "Make the patch larger or the plant smaller.");
-    }
+    if (!standsThere(patch, instance)) continue;
+    SWARD_ASSIGN(const mesh::Bounds box, instanceBox(patch, instance, boxes[instance.model]));
     const Shifts sx = overlappingShifts(box.low.x, box.high.x, patch.sideM);
     const Shifts sy = overlappingShifts(box.low.y, box.high.y, patch.sideM);
     for (int y = sy.first; y <= sy.last; ++y) {
@@ -206,6 +216,15 @@ bool buildInstanced(PatchScene::Impl& impl, const std::vector<Placement>& placem
 }
 
 }  // namespace
+
+Result<void> requireTraceable(const scene::Patch& patch) {
+  SWARD_ASSIGN(const std::vector<mesh::Bounds> boxes, modelBoxes(patch));
+  for (const scene::Instance& instance : patch.instances) {
+    if (!standsThere(patch, instance)) continue;
+    SWARD_TRY(instanceBox(patch, instance, boxes[instance.model]));
+  }
+  return {};
+}
 
 Result<void> buildScene(PatchScene::Impl& impl) {
   SWARD_ASSIGN(const std::vector<Placement> placements, placeCopies(*impl.patch));

@@ -11,6 +11,9 @@ inline constexpr std::uint64_t kMaxFlatTriangles = 2'000'000;
 /// Copies are made of plants that reach at most this many patches away.
 inline constexpr int kMaxReach = 8;
 
+/// Whether every vertex and transform is finite, and no plant far larger than the patch.
+Result<void> requireTraceable(const scene::Patch& patch);
+
 /// Fills copies, modelScenes, alpha and top from impl.patch, with impl.device, side and height set. Errors: a vertex
 /// that is not finite, a plant far larger than the patch, Embree out of memory.
 Result<void> buildScene(PatchScene::Impl& impl);

@@ -74,9 +74,9 @@ void LiveLink::takeGrounds() {
   m_groundChanged = false;
   while (auto baked = m_bakes.tryPop()) {
     m_state.ground = std::move(baked->ground);
+    m_inspection = std::move(baked->inspection);
     m_state.quality = baked->quality;
     m_state.groundSeconds = baked->secondsSinceRequest;
-    m_groundRevision = baked->revision;
     m_groundChanged = true;
   }
   if (m_otherBakes) {
@@ -117,17 +117,25 @@ bool LiveLink::takeThumbnails() {
 }
 
 void LiveLink::update(const Document& document, const UiState& ui, int width, int height, double seconds) {
+  // What only inspections show is baked while it is looked at.
+  if (const bool inspect = ui.mode.needsInspection(); inspect != m_inspecting) {
+    m_inspecting = inspect;
+    m_bakes.inspect(inspect);
+    if (inspect) m_revision = 0;
+  }
   if (document.revision() != m_revision) {
     m_revision = document.revision();
     m_bakes.request(document.snapshot(), m_revision);
     requestThumbnails(document);
   }
   updateOther(document, ui.compare);
-  m_state.stale = m_bakes.status().running || m_groundRevision < m_revision;
+  m_state.stale = m_bakes.status().running;
   if (!m_state.ground || width < 1 || height < 1) return;
+  if (m_inspecting && !m_inspection) return;
   const bool moved = ui.inputActive || seconds - ui.lastMotion < kSettleSeconds;
   Wanted wanted{document.snapshot(), m_state.ground, ui.camera, width,         height,
-                ui.mode,             ui.compare,     moved,     m_otherGround};
+                ui.mode,             ui.compare,     moved,     m_otherGround,
+                m_inspection};
   if (m_wanted == wanted) return;
   m_settleAt = moved ? std::optional(seconds + kSettleSeconds) : std::nullopt;
   requestPicture(wanted);
@@ -173,6 +181,7 @@ void LiveLink::requestPicture(const Wanted& wanted) {
   request.width = wanted.width;
   request.height = wanted.height;
   request.mode = wanted.mode;
+  request.inspection = wanted.inspection;
   request.moving = wanted.moving;
   request.id = ++m_requestId;
   if (wanted.compare.on) {
@@ -189,8 +198,8 @@ void LiveLink::requestPicture(const Wanted& wanted) {
 }
 
 bool LiveLink::settled() const {
-  return m_state.ground && m_state.quality == Quality::Full && m_groundRevision == m_revision &&
-         !m_state.bake.running && m_state.pictureFinal && !m_settleAt;
+  return m_state.ground && m_state.quality == Quality::Full && m_state.bake.revision == m_revision &&
+         !m_state.bake.running && !m_state.bake.error && m_state.pictureFinal && !m_settleAt;
 }
 
 void LiveLink::cancelBake() {

@@ -58,6 +58,7 @@ class LiveLink {
     CompareState compare;
     bool moving = false;
     std::shared_ptr<const bake::GroundBake> other;  ///< of the compared fit
+    std::shared_ptr<const bake::Inspection> inspection;
     bool operator==(const Wanted&) const = default;
   };
   void takeGrounds();
@@ -74,7 +75,9 @@ class LiveLink {
   ThumbnailService m_thumbnails;
   LiveState m_state;
   std::map<std::uint64_t, PanelPicture> m_thumbnailTextures;  ///< by the plant's index
-  std::uint64_t m_revision = 0, m_groundRevision = 0;
+  std::uint64_t m_revision = 0;
+  std::shared_ptr<const bake::Inspection> m_inspection;
+  bool m_inspecting = false;
   std::optional<Wanted> m_wanted;
   std::uint64_t m_requestId = 0;
   std::optional<double> m_settleAt;

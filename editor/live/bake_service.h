@@ -22,6 +22,7 @@ struct BakedGround {
   std::uint64_t revision = 0;  ///< of the newest request that this ground answers
   Quality quality = Quality::Coarse;
   std::shared_ptr<const bake::GroundBake> ground;
+  std::shared_ptr<const bake::Inspection> inspection;  ///< of `ground`, while inspect(true) holds; else null
   bake::BakeReport report;
   double secondsSinceRequest = 0.0;  ///< since the request that began the bake
 };
@@ -37,13 +38,17 @@ struct BakeStatus {
   std::uint64_t revision = 0;         ///< of the newest request
 };
 
-/// Bakes grounds on a thread of low priority: coarse first, then half, then full; it begins with a finer one that is
-/// cached already. All calls come from one thread, the UI's, and never wait for a bake.
+/// Bakes grounds on a thread of low priority: coarse first, then half, then full. It begins with a finer one that is
+/// cached already, and with half when only colours changed and that takes no longer than a coarse picture may. All
+/// calls come from one thread, the UI's, and never wait for a bake.
 ///
 /// What a newer request does: when it needs the same ground (another sun, view or exposure), the running bake goes on
 /// and answers both, and a ground that was handed out at full quality is not handed out again. When it needs another
-/// ground, a half or full bake is cancelled; a coarse one is finished first and handed out, so that a picture follows a
-/// slider that moves faster than a coarse bake takes. Only the newest ground is kept for tryPop.
+/// ground, the running bake is cancelled, except the first one of a request: that is finished and handed out, so that a
+/// picture follows a slider that moves faster than bakes do. Only the newest ground is kept for tryPop.
+///
+/// Coarse and half grounds keep the places of the tiles' diamonds of the full ground before them as long as the
+/// project's tiles are set the same, so that the meadow changes under a slider without its tiles jumping.
 class BakeService {
  public:
   struct Options {
@@ -61,6 +66,9 @@ class BakeService {
   BakeService& operator=(const BakeService&) = delete;
 
   void request(std::shared_ptr<const project::Project> project, std::uint64_t revision);
+  /// Whether grounds come with an inspection (for the view modes that show one). Turned on, the next request hands its
+  /// ground out again, with one.
+  void inspect(bool on);
   /// Stops the running bake and drops what waits, also finished grounds; the next request starts afresh and hands its
   /// ground out even if it is the one that was handed out last. For another document, or files changed on disk.
   void cancel();

@@ -7,9 +7,10 @@
 namespace sward::bake {
 namespace {
 
-// Ten coefficients a column need no more directions than that, since a column has several layers.
-constexpr int kCoarseLights = 8;
-constexpr int kHalfLights = 10;
+// Ten coefficients a column, of several layers. Measured on the meadow against 15 lights: with 10 traced ones the
+// picture is some 8 % darker from the side, with 12 half of that.
+constexpr int kCoarseLights = 12;
+constexpr int kHalfLights = 12;
 constexpr int kHalfDirections = 5;
 constexpr int kCoarseSegments = 3;  ///< of a blade: its bend stays, and the time goes with the triangles
 

@@ -157,7 +157,7 @@ float CanopyLight::at(std::size_t direction, const glm::vec3& position, LayerSet
   const float depth = bilinear(&m_depth[(direction * layers + layer) * plane], middle.x, middle.y);
   // A hit of the slices is the first that is seen from above, so that nothing of its own layer stands right over it,
   // and little of it in a slanted way. Measured against rays on the samples: light within 5 % from all heights.
-  const float own = seenBy == LayerSet::Slices ? 0.7f : seenBy == LayerSet::Ground ? 1.0f : 0.85f;
+  const float own = seenBy == LayerSet::Slices ? 0.6f : seenBy == LayerSet::Ground ? 1.0f : 0.85f;
   return std::min(above * std::exp(-own * inLayer * depth), 1.0f);
 }
 

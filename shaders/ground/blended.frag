@@ -39,7 +39,6 @@ void compositeBlades(Walk walk, Level level, bool axisX, float weight, float ran
 void main() {
   vec3 d = viewRay(gl_FragCoord.xy);
   vec3 random = pixelRandom(ivec2(gl_FragCoord.xy));
-  float depth = slabDepth(random);
   float levelJitter = (1.0 + random.z) * kLevelBias;
   Walk walk = startWalk(d);
   float facing = max(-d.z, 0.0);
@@ -53,7 +52,7 @@ void main() {
 
   Level layered = sliceLevel(walk.footprint, random, levelJitter);
   vec2 place = slicePlace(walk, layered);
-  Planes planes = slicePlanes(walk, depth);
+  Planes planes = slicePlanes(walk, fourthRandom(random));
   for (int i = 0; i < u_sliceLayers; ++i) {
     if (planes.t >= walk.tEnd) break;
     Site site = sliceSite(layered, int(planes.place), place + walk.slope * planes.t);

@@ -29,8 +29,8 @@ void composite(uint stored, float depthUnit) {
 }
 
 #if SWARD_SLICES
-void marchSlices(Walk walk, Level level, float tEnd, float depth) {
-  Planes planes = slicePlanes(walk, depth);
+void marchSlices(Walk walk, Level level, float tEnd, float random) {
+  Planes planes = slicePlanes(walk, random);
   vec2 place = slicePlace(walk, level);
   for (int i = 0; i < kMaxSteps; ++i) {
     if (planes.t >= tEnd || g_transmittance <= kTransmittanceEnd) break;
@@ -62,7 +62,6 @@ void main() {
   vec3 d = viewRay(gl_FragCoord.xy);
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec3 random = pixelRandom(pixel);
-  float depth = slabDepth(random);
   float levelJitter = (1.0 + random.z) * kLevelBias;
   Walk walk = startWalk(d);
 #if SWARD_FAMILIES == 1 || SWARD_FAMILIES == 2 || SWARD_FAMILIES == 4
@@ -74,7 +73,7 @@ void main() {
 
 #if SWARD_SLICES
   Level layered = sliceLevel(walk.footprint, random, levelJitter);
-  marchSlices(walk, layered, family.x == 0 ? walk.tEnd : -1.0, depth);
+  marchSlices(walk, layered, family.x == 0 ? walk.tEnd : -1.0, fourthRandom(random));
 #endif
 #if SWARD_BLADES
   Level bladed = bladeLevel(walk.footprint, random, levelJitter);

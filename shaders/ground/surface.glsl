@@ -89,10 +89,11 @@ struct Planes {
   float depthUnit;
 };
 
-// `depth` in [0, 1): where within their slabs the planes lie, another place in every sample.
-Planes slicePlanes(Walk walk, float depth) {
+// `random` says where within their slabs the planes lie.
+Planes slicePlanes(Walk walk, float random) {
   float spacing = u_heightM / float(u_sliceLayers - 1);
   float under = (u_heightM - walk.heightM) / spacing;  // slabs under the top
+  float depth = 0.5 + clamp(kSlabSpreadM / spacing, kLeastSlabSpread, 1.0) * (random - 0.5);
   bool down = walk.slopeZ < 0.0;
   Planes planes;
   planes.stride = spacing * walk.path;

@@ -24,5 +24,5 @@ vec3 pixelRandom(ivec2 pixel) {
   return fract(vec3(v >> 8u) * (1.0 / 16777216.0) + u_sampleShift);
 }
 
-// Where in its slab a sample's plane lies, 0 to 1: from a fourth number that is independent of any two of the three.
-float slabDepth(vec3 random) { return 0.5 + kSlabSpread * (fract(random.x - random.y + random.z + 1.0) - 0.5); }
+// A fourth number that is independent of any two of the three.
+float fourthRandom(vec3 random) { return fract(random.x - random.y + random.z + 1.0); }

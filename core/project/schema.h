@@ -52,9 +52,9 @@ void describe(A& a, typename A::template Ref<mesh::LeafOptics> v) {
 template <typename A>
 void describe(A& a, typename A::template Ref<mesh::MaterialOverride> v) {
   a.field("baseColour", v.baseColour, colour());
-  a.field("brightness", v.brightness, range(0.05, 20.0));
   a.field("alphaCutoff", v.alphaCutoff, range(0.001, 0.999));
   a.field("optics", v.optics, colour());
+  a.field("brightness", v.brightness, range(0.05, 20.0, "", Role::Colour));
 }
 
 template <typename A>

@@ -15,7 +15,8 @@ using testing::smallOptions;
 // Mips are made of relit colours, not of coefficients (science.md section 1 asks that either be weighted by coverage).
 // The truth at a distance is the coverage-weighted mean of what the texels show. Relit colours average to just that but
 // for their rounding; mean coefficients are lit after averaging, which cuts negative lobes off later, and multiplies
-// means of colour and response instead of averaging their products.
+// means of colour and response instead of averaging their products. Both end in the same bytes before they are drawn,
+// so both are rounded here.
 
 struct Totals {
   double relit = 0.0, coefficients = 0.0, truth = 0.0;
@@ -65,6 +66,12 @@ glm::dvec3 litMeanCoefficients(const lpt::LayerStack& stack, int layer, int x0, 
   return radiance;
 }
 
+/// As relit texels are stored: the square root over the scale, in 8 bits.
+glm::dvec3 rounded(const glm::dvec3& radiance, double scale) {
+  const glm::dvec3 root = glm::round(glm::sqrt(glm::clamp(radiance / scale, 0.0, 1.0)) * 255.0) / 255.0;
+  return root * root * scale;
+}
+
 void addLayer(const render::Renderer& renderer, const std::vector<glm::vec4>& relit, const bake::GroundBake& ground,
               int layer, int mip, const lpt::Illumination& light, Totals& totals) {
   const int size = 1 << mip, side = ground.tiles.resolution >> mip, apron = ground.tiles.apron;
@@ -80,7 +87,8 @@ void addLayer(const render::Renderer& renderer, const std::vector<glm::vec4>& re
     if (weight < 0.05 * size * size) continue;  // hardly anything to see
     const glm::dvec3 truth = sum / weight;
     const glm::dvec3 stored = glm::dvec3(relit[static_cast<std::size_t>(i)]) * renderer.relightScale();
-    const glm::dvec3 lit = litMeanCoefficients(ground.slices, layer, x0, y0, size, light);
+    const glm::dvec3 lit =
+        rounded(litMeanCoefficients(ground.slices, layer, x0, y0, size, light), renderer.relightScale());
     totals.relit += glm::dot(stored - truth, stored - truth);
     totals.coefficients += glm::dot(lit - truth, lit - truth);
     totals.truth += glm::dot(truth, truth);
@@ -112,7 +120,11 @@ TEST(MipChoice, RelitColoursAverageCloserToTheTruthThanCoefficients) {
     RecordProperty("coefficients_" + std::to_string(mip), std::to_string(coefficients));
     std::cout << "mip " << mip << ": relative RMS error " << relit << " of relit colours, " << coefficients
               << " of coefficients\n";
-    EXPECT_LT(relit, 0.5 * coefficients) << "mip " << mip;
+    // One level up rounding hides most of the difference; from there on it grows with the blocks.
+    EXPECT_LT(relit, coefficients) << "mip " << mip;
+    if (mip == 3) {
+      EXPECT_LT(relit, 0.5 * coefficients);
+    }
   }
 }
 

@@ -23,7 +23,7 @@ constexpr int kSurfaceVersion = 1;
 constexpr int kFitVersion = 1;
 constexpr int kTilesVersion = 2;
 constexpr int kStackVersion = 1;
-constexpr int kGroundVersion = 1;
+constexpr int kGroundVersion = 2;
 
 Hasher start(std::string_view kind, int version) {
   Hasher hasher;

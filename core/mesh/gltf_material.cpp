@@ -98,9 +98,9 @@ void MaterialReader::applyOverride(Material& material) {
     material.alphaMode = AlphaMode::Mask;
     material.alphaCutoff = static_cast<float>(*m_override->alphaCutoff);
   }
+  const glm::vec3 colour = m_override->baseColour ? glm::vec3(*m_override->baseColour) : glm::vec3(material.baseColour);
+  material.baseColour = glm::vec4(colour * static_cast<float>(m_override->brightness), material.baseColour.a);
   if (!m_override->baseColour) return;
-  const glm::vec3 colour(*m_override->baseColour);
-  material.baseColour = glm::vec4(colour, material.baseColour.a);
   if (material.alphaMode == AlphaMode::Opaque || material.texture < 0) {
     material.texture = -1;
     return;

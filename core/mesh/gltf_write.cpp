@@ -130,7 +130,8 @@ class Writer {
   }
 
   void addMaterial(const Material& material) {
-    const glm::vec4& c = material.baseColour;
+    // An override's brightness may have taken it above 1, which glTF does not allow.
+    const glm::vec4 c = glm::min(material.baseColour, glm::vec4(1.0f));
     Json pbr = {{"baseColorFactor", {c.r, c.g, c.b, c.a}}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.8}};
     if (material.texture >= 0) pbr["baseColorTexture"] = {{"index", addTexture(material)}};
     const glm::dvec3& tint = material.optics.transmissionTint;

@@ -23,6 +23,7 @@ struct MaterialOverride {
   std::optional<glm::dvec3> baseColour;  ///< linear RGB; replaces factor and texture
   std::optional<double> alphaCutoff;     ///< (0, 1): treat the texture's alpha as a mask with this cut-off
   LeafOptics optics;
+  double brightness = 1.0;  ///< times the base colour, texture included; the product is cut off at 1
   bool operator==(const MaterialOverride&) const = default;
 };
 

@@ -30,6 +30,10 @@ void describe(A& a, typename A::template Ref<mesh::MaterialOverride> v) {
                     "shows round the leaves."));
   a.field("optics", v.optics,
           of(Role::Colour).says("Leaf optics", "How the leaves let light through, which glTF files do not say."));
+  a.field("brightness", v.brightness,
+          range(0.05, 20.0, "", Role::Colour)
+              .decades(0.2, 5.0)
+              .says("Brightness", "Multiplies the file's own colours. Raise it for meshes that were painted dark."));
 }
 
 template <typename A>

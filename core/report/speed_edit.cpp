@@ -1,6 +1,7 @@
 #include "report/speed_edit.h"
 
 #include "bake/bake.h"
+#include "render/frame_plan.h"
 #include "render/renderer.h"
 #include "scene/camera.h"
 
@@ -54,12 +55,12 @@ class Preview {
   static Result<Preview> create(const SpeedInput& input, const JobContext& job) {
     Preview preview(job);
     SWARD_ASSIGN(preview.m_renderer, render::Renderer::create(input.context));
-    SWARD_ASSIGN(const glm::dvec3 sun, scene::sunDirection(input.project.sun));
-    const scene::Daylight daylight(sun, input.project.sun, input.project.sky);
+    SWARD_ASSIGN(const scene::Daylight daylight, render::daylightOf(input.project));
     preview.m_renderer->setDaylight(daylight, input.project.sky.hazeKm);
     const scene::View view = input.project.views.empty() ? scene::View{} : input.project.views.front();
-    SWARD_ASSIGN(const scene::Camera camera, scene::cameraFromView(view));
-    preview.m_frame = {camera, kWidth / 2, kHeight / 2, daylight.autoExposure(), input.project.render};
+    SWARD_ASSIGN(preview.m_frame, render::planFrame(input.project, view, daylight));
+    preview.m_frame.width = kWidth / 2;
+    preview.m_frame.height = kHeight / 2;
     preview.m_frame.options.samples = 1;
     return preview;
   }

@@ -1,3 +1,4 @@
+#include "tiles/scan_order.h"
 #include "tiles/tile_set.h"
 
 #include "base/check.h"
@@ -11,64 +12,6 @@ namespace {
 
 std::uint32_t pick(std::uint64_t bits, std::size_t count) {
   return static_cast<std::uint32_t>(((bits >> 32) * count) >> 32);
-}
-
-using Choice = std::vector<std::uint8_t>;  ///< tiles that may stand in a cell
-
-/// How many of the filled cells within two of (x, y), knight's moves included, hold `tile`.
-unsigned repeatsNear(const TileMap& map, int x, int y, std::uint8_t tile) {
-  static constexpr std::array<std::array<int, 2>, 10> kNear{
-      {{-1, 0}, {-2, 0}, {0, -1}, {0, -2}, {-1, -1}, {1, -1}, {-2, -1}, {2, -1}, {-1, -2}, {1, -2}}};
-  unsigned repeats = 0;
-  for (const auto& [dx, dy] : kNear) {
-    const int nx = x + dx;
-    const int ny = y + dy;
-    if (nx < 0 || ny < 0 || nx >= map.width) continue;
-    const std::size_t at = static_cast<std::size_t>(ny) * static_cast<std::size_t>(map.width);
-    if (map.tiles[at + static_cast<std::size_t>(nx)] == tile) ++repeats;
-  }
-  return repeats;
-}
-
-/// One of the choice at random, a tile four times less likely for each copy of it near by: copies side by side are what
-/// the eye catches first. All tiles are still used within a tenth equally often, and no distance is favoured.
-std::uint8_t pickTile(const TileMap& map, int x, int y, const Choice& choice, std::uint64_t bits) {
-  std::array<std::uint64_t, 256> ends;  // running sums of the weights
-  std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < choice.size(); ++i) {
-    sum += std::uint64_t{1} << (2 * (10 - repeatsNear(map, x, y, choice[i])));
-    ends[i] = sum;
-  }
-  const std::uint64_t point = ((bits >> 32) * sum) >> 32;  // sum <= 2^28
-  std::size_t chosen = 0;
-  while (ends[chosen] <= point) ++chosen;
-  return choice[chosen];
-}
-
-TileMap scanOrderMap(const TileSet& set, int width, int height, std::uint64_t seed) {
-  constexpr std::size_t kAny = 4;  // no neighbour: one more than the largest colour
-  std::array<std::array<Choice, kAny + 1>, kAny + 1> matching;
-  for (std::size_t tile = 0; tile < set.tiles.size(); ++tile) {
-    const auto& edges = set.tiles[tile].edges;
-    for (const std::size_t south : {static_cast<std::size_t>(edges[kSouth]), kAny}) {
-      for (const std::size_t west : {static_cast<std::size_t>(edges[kWest]), kAny}) {
-        matching[south][west].push_back(static_cast<std::uint8_t>(tile));
-      }
-    }
-  }
-  TileMap map{width, height, {}};
-  const auto stride = static_cast<std::size_t>(width);
-  map.tiles.resize(stride * static_cast<std::size_t>(height));
-  std::size_t at = 0;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x, ++at) {
-      const std::size_t south = y > 0 ? set.tiles[map.tiles[at - stride]].edges[kNorth] : kAny;
-      const std::size_t west = x > 0 ? set.tiles[map.tiles[at - 1]].edges[kEast] : kAny;
-      const std::uint64_t bits = base::mix64(seed, static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y));
-      map.tiles[at] = pickTile(map, x, y, matching[south][west], bits);
-    }
-  }
-  return map;
 }
 
 Result<TileMap> hashedMap(const TileSet& set, int width, int height, std::uint64_t seed) {

@@ -91,7 +91,9 @@ struct TileMap {
   std::vector<std::uint8_t> tiles;
 };
 /// Scan order: each cell takes at random one of the tiles that match its left and lower neighbours, less likely one
-/// that stands near by already. Hashed: any cell by itself, from hashed edge colours; needs the complete set (error
+/// that stands near by already; and the map joins itself (its last column matches the first, its last row the first),
+/// so that it may be repeated, wherever the set allows it: with two tiles a pair, or more, and some sixteen cells a
+/// side. Hashed: any cell by itself, from hashed edge colours; needs the complete set (error
 /// otherwise). Sides from 1 to 32768.
 Result<TileMap> makeTileMap(const TileSet& set, int width, int height, MapMethod method, std::uint64_t seed);
 

@@ -186,10 +186,14 @@ void Application::whenSaved(const std::function<void()>& then) {
 }
 
 void Application::addPlantFrom(const fs::path& mesh) {
-  auto plant = bake::plantFromMesh(mesh, m_document->project().folder);
-  if (!plant.ok()) return m_dialogs.showError("The mesh cannot be used", plant.error());
+  const auto imported = bake::plantFromMesh(mesh, m_document->project(), m_document->project().folder);
+  if (!imported.ok()) return m_dialogs.showError("The mesh cannot be used", imported.error());
   std::optional<std::size_t> added;
-  edit("add " + plant->name, [&](project::Project& p) { added = addPlant(p, *plant); }, {});
+  const auto add = [&](project::Project& p) {
+    added = addPlant(p, imported->plant);
+    p.sampling.slices = imported->slices;
+  };
+  edit("add " + imported->plant.name, add, {});
   if (added) m_ui.selection = selectPlant(m_document->project(), *added);
 }
 

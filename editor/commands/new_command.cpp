@@ -16,8 +16,12 @@ struct NewRequest {
 };
 
 /// Puts the mesh in place of the template's grasses, with all their share.
-Result<void> useMesh(project::Project& project, const fs::path& mesh, const fs::path& projectFolder) {
-  SWARD_ASSIGN(project::Plant plant, bake::plantFromMesh(mesh, projectFolder));
+Result<void> useMesh(project::Project& project, const fs::path& mesh, const fs::path& projectFolder,
+                     std::vector<std::string>& notes) {
+  SWARD_ASSIGN(bake::ImportedPlant imported, bake::plantFromMesh(mesh, project, projectFolder));
+  project::Plant& plant = imported.plant;
+  project.sampling.slices = imported.slices;
+  notes = std::move(imported.notes);
   double share = 0.0;
   for (const project::Plant& p : project.patch.plants) share += p.kind == project::PlantKind::Grass ? p.share : 0.0;
   plant.share = share > 0.0 ? share : 1.0;
@@ -52,7 +56,8 @@ Result<int> runNew(Program& program, const NewRequest& request) {
   SWARD_ASSIGN(project::Project project, project::fromTemplate(request.templateName));
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   if (file.has_stem()) project.name = file.stem().string();
-  if (!request.grass.empty()) SWARD_TRY(useMesh(project, request.grass, folder));
+  std::vector<std::string> notes;
+  if (!request.grass.empty()) SWARD_TRY(useMesh(project, request.grass, folder, notes));
   SWARD_ASSIGN(project, project::parse(project::toJson(project), file, program.common.overrides));
   SWARD_TRY(checkProject(program, project));
   {
@@ -61,7 +66,8 @@ Result<int> runNew(Program& program, const NewRequest& request) {
   }
   say(program, "wrote " + file.string() + "; draw it with: sward render " + file.string() + " -o " +
                    file.stem().string() + ".png");
-  if (program.common.json) print({{"file", file.string()}, {"template", request.templateName}});
+  for (const std::string& note : notes) say(program, "  " + note);
+  if (program.common.json) print({{"file", file.string()}, {"template", request.templateName}, {"notes", notes}});
   return kDone;
 }
 

@@ -52,7 +52,7 @@ void main() {
 
   Level layered = sliceLevel(walk.footprint, random, levelJitter);
   vec2 place = slicePlace(walk, layered);
-  Planes planes = slicePlanes(walk);
+  Planes planes = slicePlanes(walk, fourthRandom(random));
   for (int i = 0; i < u_sliceLayers; ++i) {
     if (planes.t >= walk.tEnd) break;
     Site site = sliceSite(layered, int(planes.place), place + walk.slope * planes.t);

@@ -12,6 +12,11 @@ const int kMaxBlendedBlades = 64;    // of each direction that the blended metho
 const float kHeightSteps = 12.0;     // distant rays take at least this many steps through the shell's height
 const float kStridePixels = 3.0;     // what a ray may sink in a step that skips blade slabs: plants there are thin as pixels
 const float kNearestM = 0.12;        // planes nearer than this to the eye are left out
+// A slice's plane lies anywhere in a middle share of its slab, another place in every sample: all of it leaves no gaps
+// between the planes of solid plants; in thick slabs less of it, so that small flat things (flowers) are not drawn out
+// along the view by more than their size.
+const float kSlabSpreadM = 0.02;
+const float kLeastSlabSpread = 0.6;
 // A ray's mip level is that of a point this share of its way through the shell, at most so far into it.
 const float kLevelShare = 0.3;
 const float kLevelReachM = 1.0;

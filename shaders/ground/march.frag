@@ -29,8 +29,8 @@ void composite(uint stored, float depthUnit) {
 }
 
 #if SWARD_SLICES
-void marchSlices(Walk walk, Level level, float tEnd) {
-  Planes planes = slicePlanes(walk);
+void marchSlices(Walk walk, Level level, float tEnd, float random) {
+  Planes planes = slicePlanes(walk, random);
   vec2 place = slicePlace(walk, level);
   for (int i = 0; i < kMaxSteps; ++i) {
     if (planes.t >= tEnd || g_transmittance <= kTransmittanceEnd) break;
@@ -73,7 +73,7 @@ void main() {
 
 #if SWARD_SLICES
   Level layered = sliceLevel(walk.footprint, random, levelJitter);
-  marchSlices(walk, layered, family.x == 0 ? walk.tEnd : -1.0);
+  marchSlices(walk, layered, family.x == 0 ? walk.tEnd : -1.0, fourthRandom(random));
 #endif
 #if SWARD_BLADES
   Level bladed = bladeLevel(walk.footprint, random, levelJitter);

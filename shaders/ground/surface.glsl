@@ -89,15 +89,17 @@ struct Planes {
   float depthUnit;
 };
 
-Planes slicePlanes(Walk walk) {
+// `random` says where within their slabs the planes lie.
+Planes slicePlanes(Walk walk, float random) {
   float spacing = u_heightM / float(u_sliceLayers - 1);
   float under = (u_heightM - walk.heightM) / spacing;  // slabs under the top
+  float depth = 0.5 + clamp(kSlabSpreadM / spacing, kLeastSlabSpread, 1.0) * (random - 0.5);
   bool down = walk.slopeZ < 0.0;
   Planes planes;
   planes.stride = spacing * walk.path;
   planes.step = down ? 1.0 : -1.0;
-  planes.place = down ? ceil(under - 0.5) : floor(under - 0.5);
-  planes.t = (planes.place + 0.5 - under) * planes.step * planes.stride;
+  planes.place = down ? ceil(under - depth) : floor(under - depth);
+  planes.t = (planes.place + depth - under) * planes.step * planes.stride;
   planes.depthUnit = walk.path * kDepthUnit;
   return planes;
 }

@@ -23,3 +23,6 @@ vec3 pixelRandom(ivec2 pixel) {
   v.z += v.x * v.y;
   return fract(vec3(v >> 8u) * (1.0 / 16777216.0) + u_sampleShift);
 }
+
+// A fourth number that is independent of any two of the three.
+float fourthRandom(vec3 random) { return fract(random.x - random.y + random.z + 1.0); }

@@ -204,6 +204,12 @@ TEST_F(Cli, NewExportAndNewAgain) {
   EXPECT_EQ(project->patch.plants[0].kind, project::PlantKind::Gltf);
   EXPECT_EQ(project->patch.plants[0].gltf.path, "../plants/grass-1.glb");
   EXPECT_EQ(bare({"check", "projects/mine.sward"}).exitCode, 0);
+  // What was chosen for the plant is said, and a value of one's own goes before it.
+  EXPECT_THAT(made.err, HasSubstr("a square metre (patch.plants[0].densityPerM2)"));
+  const Outcome tall = bare(
+      {"new", "projects/tall.sward", "--grass", "plants/grass-1.glb", "--set", "patch.plants[0].gltf.heightM=1.5"});
+  ASSERT_EQ(tall.exitCode, 0) << tall.err;
+  EXPECT_EQ(project::load(work() / "projects" / "tall.sward")->patch.plants[0].gltf.heightM, 1.5);
   const std::string list = bare({"new", "--list"}).out;
   for (const char* name : {"meadow   ", "flowers  ", "dry      ", "lawn     ", "empty    "}) {
     EXPECT_THAT(list, HasSubstr(name));

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <fstream>
 #include <sstream>
+#include <string>
 #include <thread>
 
 #include <fcntl.h>
@@ -36,6 +37,21 @@ std::string contents(const fs::path& path) {
   ::_exit(99);
 }
 
+/// Returns once the program blocks SIGINT, which is the first thing it does: before, a signal would just end it, and
+/// how long starting takes depends on what else the machine does.
+void waitForHandler(pid_t child) {
+  constexpr unsigned long long kInterrupt = 1ull << (SIGINT - 1);
+  const fs::path file = fs::path("/proc") / std::to_string(child) / "status";
+  for (int i = 0; i < 2000; ++i) {
+    std::ifstream status(file);
+    for (std::string line; std::getline(status, line);) {
+      if (!line.starts_with("SigBlk:")) continue;
+      if ((std::stoull(line.substr(7), nullptr, 16) & kInterrupt) != 0) return;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+}
+
 }  // namespace
 
 Outcome runProgram(const fs::path& folder, const std::vector<std::string>& arguments, double interruptAfter) {
@@ -45,6 +61,7 @@ Outcome runProgram(const fs::path& folder, const std::vector<std::string>& argum
   const pid_t child = ::fork();
   if (child == 0) execute(folder, arguments, out, err);
   if (interruptAfter >= 0.0) {
+    waitForHandler(child);
     std::this_thread::sleep_for(std::chrono::duration<double>(interruptAfter));
     ::kill(child, SIGINT);
     start = Clock::now();

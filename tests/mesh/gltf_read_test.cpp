@@ -221,6 +221,18 @@ TEST_F(GltfRead, alphaModesTexturesAndFactors) {
   ASSERT_TRUE(replaced.ok());
   EXPECT_EQ(alphaAt(*replaced, 0, 0.3f, 0.3f), 0.0f);
   EXPECT_NEAR(surfaceAt(*replaced, 0, 0.3f, 0.3f).reflectance.r, 0.1f, 1e-6f);  // the texture's colour is gone
+
+  // Brightness multiplies whichever colour counts: the override's, or the file's with its texture.
+  options.material->brightness = 2.0;
+  EXPECT_NEAR(surfaceAt(read(builder, options).value(), 0, 0.3f, 0.3f).reflectance.r, 0.2f, 1e-6f);
+  options.material->baseColour.reset();
+  options.material->brightness = 0.5;
+  options.material->optics.translucency = 0.0;
+  const SurfaceSample dimmed = surfaceAt(read(builder, options).value(), 0, 0.3f, 0.3f);
+  options.material->brightness = 1.0;
+  const SurfaceSample full = surfaceAt(read(builder, options).value(), 0, 0.3f, 0.3f);
+  EXPECT_GT(full.reflectance.g, 0.1f);
+  EXPECT_NEAR(dimmed.reflectance.g, 0.5f * full.reflectance.g, 1e-6f);
 }
 
 TEST_F(GltfRead, aMissingImageIsAWarningAndAMissingBufferAnError) {

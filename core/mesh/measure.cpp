@@ -1,0 +1,116 @@
+#include "mesh/measure.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace sward::mesh {
+namespace {
+
+/// Vertices by their place: files split them where normals or texture coordinates differ.
+std::vector<std::uint32_t> weld(const Model& model) {
+  std::map<std::array<float, 3>, std::uint32_t> first;
+  std::vector<std::uint32_t> welded;
+  welded.reserve(model.positions.size());
+  for (const glm::vec3& p : model.positions) {
+    const auto next = static_cast<std::uint32_t>(first.size());
+    welded.push_back(first.try_emplace({p.x, p.y, p.z}, next).first->second);
+  }
+  return welded;
+}
+
+std::uint32_t rootOf(std::vector<std::uint32_t>& parents, std::uint32_t vertex) {
+  while (parents[vertex] != vertex) vertex = parents[vertex] = parents[parents[vertex]];
+  return vertex;
+}
+
+/// Triangles that share places of vertices.
+struct Parts {
+  std::vector<std::uint32_t> ofTriangle;
+  std::vector<bool> open;  ///< by part; parts are named by one of their welded vertices
+};
+
+Parts findParts(const Model& model) {
+  const std::vector<std::uint32_t> welded = weld(model);
+  std::vector<std::uint32_t> parents(welded.size());
+  std::iota(parents.begin(), parents.end(), 0u);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;  // of an undirected edge's two directions
+  for (const glm::uvec3& triangle : model.triangles) {
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t a = welded[triangle[i]], b = welded[triangle[(i + 1) % 3]];
+      parents[rootOf(parents, a)] = rootOf(parents, b);
+      if (a != b) balance[std::minmax(a, b)] += a < b ? 1 : -1;
+    }
+  }
+  Parts parts{{}, std::vector<bool>(welded.size(), false)};
+  for (const auto& [edge, sum] : balance) {
+    if (sum != 0) parts.open[rootOf(parents, edge.first)] = true;
+  }
+  parts.ofTriangle.reserve(model.triangles.size());
+  for (const glm::uvec3& triangle : model.triangles) parts.ofTriangle.push_back(rootOf(parents, welded[triangle.x]));
+  return parts;
+}
+
+/// Coverage of a triangle and its luminance times coverage, as means over a lattice of its points.
+struct Seen {
+  double coverage = 0.0, luminance = 0.0;
+};
+Seen seenOf(const Model& model, std::uint32_t triangle) {
+  constexpr int kSide = 6;
+  constexpr glm::dvec3 kLuminance(0.2126, 0.7152, 0.0722);
+  Seen seen;
+  int points = 0;
+  for (int i = 0; i < kSide; ++i) {
+    for (int j = 0; i + j < kSide; ++j, ++points) {
+      const SurfaceSample at = surfaceAt(model, triangle, (static_cast<float>(i) + 1.0f / 3.0f) / kSide,
+                                         (static_cast<float>(j) + 1.0f / 3.0f) / kSide);
+      seen.coverage += static_cast<double>(at.alpha);
+      seen.luminance += static_cast<double>(at.alpha) * glm::dot(kLuminance, glm::dvec3(at.reflectance));
+    }
+  }
+  return {seen.coverage / points, seen.luminance / points};
+}
+
+}  // namespace
+
+Measure measure(const Model& model) {
+  struct Part {
+    double leafAreaM2 = 0.0;
+    glm::vec3 low{std::numeric_limits<float>::max()}, high{std::numeric_limits<float>::lowest()};
+  };
+  const Parts parts = findParts(model);
+  std::map<std::uint32_t, Part> sizes;
+  Measure result;
+  double surface = 0.0, solid = 0.0, covered = 0.0, light = 0.0;
+  for (std::uint32_t t = 0; t < model.triangles.size(); ++t) {
+    const glm::uvec3& triangle = model.triangles[t];
+    const glm::vec3 a = model.positions[triangle.x], b = model.positions[triangle.y], c = model.positions[triangle.z];
+    const double area = 0.5 * glm::length(glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a)));
+    const Seen seen = seenOf(model, t);
+    const bool open = parts.open[parts.ofTriangle[t]];
+    surface += area;
+    solid += open ? 0.0 : area;
+    covered += area * seen.coverage;
+    light += area * seen.luminance;
+    Part& part = sizes[parts.ofTriangle[t]];
+    part.leafAreaM2 += area * seen.coverage * (open ? 1.0 : 0.5);
+    part.low = glm::min(part.low, glm::min(a, glm::min(b, c)));
+    part.high = glm::max(part.high, glm::max(a, glm::max(b, c)));
+  }
+  double widths = 0.0;
+  for (const auto& [root, part] : sizes) {
+    const double diagonal = glm::length(glm::dvec3(part.high) - glm::dvec3(part.low));
+    result.leafAreaM2 += part.leafAreaM2;
+    widths += diagonal > 0.0 ? part.leafAreaM2 * part.leafAreaM2 / diagonal : 0.0;
+  }
+  result.solidShare = surface > 0.0 ? solid / surface : 0.0;
+  result.partWidthM = result.leafAreaM2 > 0.0 ? widths / result.leafAreaM2 : 0.0;
+  result.luminance = covered > 0.0 ? light / covered : 0.0;
+  return result;
+}
+
+}  // namespace sward::mesh

@@ -292,7 +292,7 @@ TEST(History, TenThousandRandomEditsWithUndoAndRedo) {
       document.goTo(to), reference.go(static_cast<long>(to) - static_cast<long>(reference.position()));
     }
     ASSERT_NO_FATAL_FAILURE(compare(document, reference, step));
-    if (step % 2000 == 0) {
+    if (step % 8000 == 0) {
       ASSERT_NO_FATAL_FAILURE(walk(document, reference));
     }
   }

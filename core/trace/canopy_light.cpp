@@ -70,7 +70,8 @@ void CanopyLight::deposit(const TriangleField& field, const JobContext& job) {
   for (const glm::dvec3& d : m_directions) scaled.push_back(glm::vec3(d) / (cellM * cellM * static_cast<float>(d.z)));
   std::vector<std::vector<float>> shares(kShares);
   const auto parts = field.parts();
-  const auto addTriangle = [&](std::vector<float>& sums, const std::array<glm::vec3, 3>& p, float alpha) {
+  const auto addTriangle = [&](std::vector<float>& sums, std::vector<float>& shadow, const std::array<glm::vec3, 3>& p,
+                               float alpha) {
     const glm::vec3 e1 = p[1] - p[0], e2 = p[2] - p[0];
     const glm::vec3 area = (0.5f * alpha) * glm::cross(e1, e2);
     // A long triangle counts in all the voxels along it.
@@ -79,6 +80,7 @@ void CanopyLight::deposit(const TriangleField& field, const JobContext& job) {
     const int points = std::clamp(static_cast<int>(std::sqrt(glm::dot(along, along)) / least) + 1, 1, 8);
     const glm::vec3 middle = (p[0] + p[1] + p[2]) * (1.0f / 3.0f);
     const float share = 1.0f / static_cast<float>(points);
+    for (std::size_t d = 0; d < count; ++d) shadow[d] = share * std::abs(glm::dot(area, scaled[d]));
     for (int i = 0; i < points; ++i) {
       const float offset = (static_cast<float>(i) + 0.5f) * share - 0.5f;
       const glm::vec3 at = middle + 0.6f * offset * along;
@@ -86,20 +88,21 @@ void CanopyLight::deposit(const TriangleField& field, const JobContext& job) {
       const int x = wrapped(floorOf(at.x * m_cellsPerMetre)), y = wrapped(floorOf(at.y * m_cellsPerMetre));
       const std::size_t voxel = static_cast<std::size_t>(layer) * plane + static_cast<std::size_t>(y * m_cells + x);
       float* out = &sums[voxel * count];
-      for (std::size_t d = 0; d < count; ++d) out[d] += share * std::abs(glm::dot(area, scaled[d]));
+      for (std::size_t d = 0; d < count; ++d) out[d] += shadow[d];
     }
   };
   const std::size_t grain = (parts.size() + kShares - 1) / kShares;
   base::parallelFor(job, parts.size(), grain, [&](std::size_t begin, std::size_t end) {
     std::vector<float>& sums = shares[begin / std::max<std::size_t>(grain, 1)];
     sums.assign(voxels * count, 0.0f);
+    std::vector<float> shadow(count);  // of one point of a triangle, toward each direction
     for (std::size_t i = begin; i < end && !job.cancelled(); ++i) {
       const TriangleField::Part& part = parts[i];
       const glm::vec3* vertices = field.positions().data() + part.firstVertex;
       for (std::uint32_t t = 0; t < part.model->triangles.size(); ++t) {
         const glm::uvec3 c = part.model->triangles[t];
         const float alpha = part.alpha ? mesh::alphaAt(*part.model, t, 1.0f / 3.0f, 1.0f / 3.0f) : 1.0f;
-        addTriangle(sums, {vertices[c.x], vertices[c.y], vertices[c.z]}, alpha);
+        addTriangle(sums, shadow, {vertices[c.x], vertices[c.y], vertices[c.z]}, alpha);
       }
     }
   });

@@ -241,7 +241,7 @@ Result<std::shared_ptr<const mesh::Model>> Session::model(std::size_t plant, int
 Result<const trace::PatchScene*> Session::scene() {
   if (!m_scene) {
     SWARD_ASSIGN(auto grown, patch());
-    SWARD_ASSIGN(m_scene, trace::PatchScene::create(std::move(grown)));
+    SWARD_ASSIGN(m_scene, trace::PatchScene::create(std::move(grown), m_job));
   }
   return m_scene.get();
 }

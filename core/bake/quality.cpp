@@ -74,6 +74,7 @@ project::Project atQuality(const project::Project& project, Quality quality) {
     s.sliceSubSamples = (s.sliceSubSamples + 1) / 2;
     s.bladeSubSamples = (s.bladeSubSamples + 1) / 2;
     s.visibilityDirections = std::min(s.visibilityDirections, kHalfDirections);
+    s.bladeHeight = std::max(2 * s.bladeHeight / 3, 4);  // blades cost most of the rays and have the finest texels
     if (lightCount(reduced.lights) > kHalfLights) reduced.lights = evenLights(kHalfLights);
   } else if (quality == Quality::Coarse) {
     divideAtMost(reduced, 4);

@@ -251,7 +251,7 @@ Result<std::shared_ptr<const mesh::Model>> Session::model(std::size_t plant, int
 Result<const trace::PatchScene*> Session::scene() {
   if (!m_scene) {
     SWARD_ASSIGN(auto grown, patch());
-    SWARD_ASSIGN(m_scene, trace::PatchScene::create(std::move(grown)));
+    SWARD_ASSIGN(m_scene, trace::PatchScene::create(std::move(grown), m_job));
   }
   return m_scene.get();
 }
@@ -307,7 +307,7 @@ Result<std::shared_ptr<const trace::LayerSurface>> Session::surface(LayerSet set
 }
 
 /// What reaches the hits of a set from each light, by the medium.
-Result<const std::vector<std::vector<float>>*> Session::arriving(LayerSet set) {
+Result<const trace::ArrivingLight*> Session::arriving(LayerSet set) {
   if (const auto made = m_arriving.find(set); made != m_arriving.end()) return &made->second;
   SWARD_ASSIGN(const auto found, hits(set));
   SWARD_ASSIGN(const trace::CanopyLight* light, canopy());
@@ -331,7 +331,7 @@ Result<trace::LayerLuminance> Session::makeLuminance(LayerSet set, std::size_t l
   SWARD_ASSIGN(const auto found, hits(set));
   if (m_settings.sampler == Sampler::Passes) {
     SWARD_ASSIGN(const auto* arrives, arriving(set));
-    return trace::luminanceOf(*found, (*arrives)[light], m_lights[light]);
+    return trace::luminanceOf(*found, *arrives, light);
   }
   SWARD_ASSIGN(const trace::PatchScene* traced, scene());
   SWARD_ASSIGN(const trace::LayerLuminance sampled, trace::sampleLuminance(*traced, *found, m_lights[light], job));

@@ -71,7 +71,7 @@ class Session {
   Result<trace::LayerHits> makeHits(trace::LayerSet set, const JobContext& job);
   Result<trace::LayerLuminance> makeLuminance(trace::LayerSet set, std::size_t light, const JobContext& job);
   Result<trace::LayerVisibility> makeVisibility(trace::LayerSet set, const JobContext& job);
-  Result<const std::vector<std::vector<float>>*> arriving(trace::LayerSet set);
+  Result<const trace::ArrivingLight*> arriving(trace::LayerSet set);
   Keep keepTraced() const { return m_holdTraced ? Keep::MemoryAndDisk : Keep::Disk; }
   Result<Shared<trace::LayerHits>> hits(trace::LayerSet set);
   Result<Shared<trace::LayerSurface>> surface(trace::LayerSet set);
@@ -102,7 +102,7 @@ class Session {
   std::unique_ptr<trace::TriangleField> m_field;
   std::vector<trace::LayerHits> m_passed;
   std::unique_ptr<trace::CanopyLight> m_canopy;
-  std::map<trace::LayerSet, std::vector<std::vector<float>>> m_arriving;
+  std::map<trace::LayerSet, trace::ArrivingLight> m_arriving;
   std::map<base::Hash128, std::weak_ptr<const void>> m_held;
   BakeReport m_report;
   std::vector<double> m_progressEnd;  ///< of each node, cumulated weights

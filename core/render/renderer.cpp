@@ -123,11 +123,21 @@ struct Renderer::Impl {
   void makeMap(const RenderOptions& options) {
     const MacroSettings settings{options.macroVariation, options.macroScaleM};
     if (macro == settings) return;
+    // A ground that is edited keeps its map, which takes longer to colour than a coarse ground to draw.
+    const bool same = mapWords.size() > 0 && madeSettings == settings && madeSideM == ground->tileSideM() &&
+                      madeMap.width == ground->map.width && madeMap.tiles == ground->map.tiles;
+    macro = settings;
+    if (same) return;
+    madeSettings = settings;
+    madeSideM = ground->tileSideM();
+    madeMap = ground->map;
     const auto words = makeMacroMap(ground->map, ground->tileSideM(), settings);
     mapWords = gpu::Buffer(std::as_bytes(std::span(words)));
     map = gpu::Texture::ofBuffer(GL_R32UI, mapWords);
-    macro = settings;
   }
+  MacroSettings madeSettings;  ///< that mapWords holds, for
+  tiles::TileMap madeMap;      ///< this map and
+  double madeSideM = 0.0;      ///< tiles of this size
 
   PassInput input() const {
     return {ground.get(),

@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "base/parallel.h"
+#include "trace/fast_floor.h"
 
 #include <algorithm>
 #include <array>
@@ -41,25 +42,18 @@ CanopyLight::CanopyLight(const TriangleField& field, int cells, int layers, std:
   });
 }
 
-std::size_t CanopyLight::cell(int x, int y) const {
-  const auto wrap = [this](int v) {
-    const int m = v % m_cells;
-    return static_cast<std::size_t>(m < 0 ? m + m_cells : m);
-  };
-  return wrap(y) * static_cast<std::size_t>(m_cells) + wrap(x);
+int CanopyLight::wrapped(int cell) const {
+  if (cell >= 0 && cell < m_cells) return cell;
+  const int m = cell % m_cells;
+  return m < 0 ? m + m_cells : m;
 }
 
 /// Periodic; values belong to the middles of cells, x and y count cells.
 float CanopyLight::bilinear(const float* plane, float x, float y) const {
-  const float fx = std::floor(x - 0.5f), fy = std::floor(y - 0.5f);
-  const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
-  const float tx = x - 0.5f - fx, ty = y - 0.5f - fy;
-  const auto wrap = [this](int v) {
-    const int m = v % m_cells;
-    return m < 0 ? m + m_cells : m;
-  };
-  const int x0 = wrap(ix), x1 = x0 + 1 == m_cells ? 0 : x0 + 1;
-  const int y0 = wrap(iy), y1 = y0 + 1 == m_cells ? 0 : y0 + 1;
+  const int ix = floorOf(x - 0.5f), iy = floorOf(y - 0.5f);
+  const float tx = x - 0.5f - static_cast<float>(ix), ty = y - 0.5f - static_cast<float>(iy);
+  const int x0 = wrapped(ix), x1 = x0 + 1 == m_cells ? 0 : x0 + 1;
+  const int y0 = wrapped(iy), y1 = y0 + 1 == m_cells ? 0 : y0 + 1;
   const float *southern = plane + y0 * m_cells, *northern = plane + y1 * m_cells;
   const float low = southern[x0] * (1.0f - tx) + southern[x1] * tx;
   const float high = northern[x0] * (1.0f - tx) + northern[x1] * tx;
@@ -76,7 +70,8 @@ void CanopyLight::deposit(const TriangleField& field, const JobContext& job) {
   for (const glm::dvec3& d : m_directions) scaled.push_back(glm::vec3(d) / (cellM * cellM * static_cast<float>(d.z)));
   std::vector<std::vector<float>> shares(kShares);
   const auto parts = field.parts();
-  const auto addTriangle = [&](std::vector<float>& sums, const std::array<glm::vec3, 3>& p, float alpha) {
+  const auto addTriangle = [&](std::vector<float>& sums, std::vector<float>& shadow, const std::array<glm::vec3, 3>& p,
+                               float alpha) {
     const glm::vec3 e1 = p[1] - p[0], e2 = p[2] - p[0];
     const glm::vec3 area = (0.5f * alpha) * glm::cross(e1, e2);
     // A long triangle counts in all the voxels along it.
@@ -85,28 +80,29 @@ void CanopyLight::deposit(const TriangleField& field, const JobContext& job) {
     const int points = std::clamp(static_cast<int>(std::sqrt(glm::dot(along, along)) / least) + 1, 1, 8);
     const glm::vec3 middle = (p[0] + p[1] + p[2]) * (1.0f / 3.0f);
     const float share = 1.0f / static_cast<float>(points);
+    for (std::size_t d = 0; d < count; ++d) shadow[d] = share * std::abs(glm::dot(area, scaled[d]));
     for (int i = 0; i < points; ++i) {
       const float offset = (static_cast<float>(i) + 0.5f) * share - 0.5f;
       const glm::vec3 at = middle + 0.6f * offset * along;
       const int layer = std::clamp(static_cast<int>((m_heightM - at.z) / m_layerM), 0, m_layers - 1);
-      const std::size_t voxel =
-          static_cast<std::size_t>(layer) * plane + cell(static_cast<int>(std::floor(at.x * m_cellsPerMetre)),
-                                                         static_cast<int>(std::floor(at.y * m_cellsPerMetre)));
+      const int x = wrapped(floorOf(at.x * m_cellsPerMetre)), y = wrapped(floorOf(at.y * m_cellsPerMetre));
+      const std::size_t voxel = static_cast<std::size_t>(layer) * plane + static_cast<std::size_t>(y * m_cells + x);
       float* out = &sums[voxel * count];
-      for (std::size_t d = 0; d < count; ++d) out[d] += share * std::abs(glm::dot(area, scaled[d]));
+      for (std::size_t d = 0; d < count; ++d) out[d] += shadow[d];
     }
   };
   const std::size_t grain = (parts.size() + kShares - 1) / kShares;
   base::parallelFor(job, parts.size(), grain, [&](std::size_t begin, std::size_t end) {
     std::vector<float>& sums = shares[begin / std::max<std::size_t>(grain, 1)];
     sums.assign(voxels * count, 0.0f);
+    std::vector<float> shadow(count);  // of one point of a triangle, toward each direction
     for (std::size_t i = begin; i < end && !job.cancelled(); ++i) {
       const TriangleField::Part& part = parts[i];
       const glm::vec3* vertices = field.positions().data() + part.firstVertex;
       for (std::uint32_t t = 0; t < part.model->triangles.size(); ++t) {
         const glm::uvec3 c = part.model->triangles[t];
         const float alpha = part.alpha ? mesh::alphaAt(*part.model, t, 1.0f / 3.0f, 1.0f / 3.0f) : 1.0f;
-        addTriangle(sums, {vertices[c.x], vertices[c.y], vertices[c.z]}, alpha);
+        addTriangle(sums, shadow, {vertices[c.x], vertices[c.y], vertices[c.z]}, alpha);
       }
     }
   });
@@ -138,7 +134,7 @@ void CanopyLight::spread(std::size_t direction) {
           path += bilinear(depth, p.x, p.y);
         }
         const glm::vec2 from = at + step;
-        below[cell(x, y)] = bilinear(above, from.x, from.y) * std::exp(-path / static_cast<float>(samples));
+        below[y * m_cells + x] = bilinear(above, from.x, from.y) * std::exp(-path / static_cast<float>(samples));
       }
     }
   }
@@ -161,25 +157,33 @@ float CanopyLight::at(std::size_t direction, const glm::vec3& position, LayerSet
   return std::min(above * std::exp(-own * inLayer * depth), 1.0f);
 }
 
-std::vector<std::vector<float>> CanopyLight::arriving(const LayerHits& hits, const JobContext& job) const {
-  std::vector<std::vector<float>> arriving(m_directions.size(), std::vector<float>(hits.hits.size()));
-  base::parallelFor(job, hits.hits.size(), 1024, [&](std::size_t begin, std::size_t end) {
+ArrivingLight CanopyLight::arriving(const LayerHits& hits, const JobContext& job) const {
+  const std::size_t count = hits.hits.size();
+  ArrivingLight light;
+  light.share.assign(m_directions.size(), std::vector<float>(count));
+  light.cosine.assign(m_directions.size(), std::vector<float>(count));
+  base::parallelFor(job, count, 512, [&](std::size_t begin, std::size_t end) {
+    std::vector<glm::vec3> normals;
+    for (std::size_t h = begin; h < end; ++h) normals.push_back(decodeNormal(hits.hits[h].normal));
     for (std::size_t d = 0; d < m_directions.size(); ++d) {
-      for (std::size_t h = begin; h < end; ++h) arriving[d][h] = at(d, hits.hits[h].position, hits.set);
+      const glm::vec3 direction(m_directions[d]);
+      for (std::size_t h = begin; h < end; ++h) {
+        light.share[d][h] = at(d, hits.hits[h].position, hits.set);
+        light.cosine[d][h] = glm::dot(normals[h - begin], direction);
+      }
     }
   });
-  return arriving;
+  return light;
 }
 
-LayerLuminance luminanceOf(const LayerHits& hits, std::span<const float> arriving, const glm::dvec3& light) {
+LayerLuminance luminanceOf(const LayerHits& hits, const ArrivingLight& arriving, std::size_t direction) {
   LayerLuminance out;
   out.reflected.resize(hits.texels(), 0.0f);
   out.transmitted.resize(hits.texels(), 0.0f);
-  const glm::vec3 toLight(light);
+  const std::vector<float>&share = arriving.share[direction], &cosine = arriving.cosine[direction];
   for (std::size_t texel = 0; texel < hits.texels(); ++texel) {
     for (std::uint32_t h = hits.hitStart[texel]; h < hits.hitStart[texel + 1]; ++h) {
-      const float cosine = glm::dot(decodeNormal(hits.hits[h].normal), toLight);
-      (cosine > 0.0f ? out.reflected : out.transmitted)[texel] += std::abs(cosine) * arriving[h];
+      (cosine[h] > 0.0f ? out.reflected : out.transmitted)[texel] += std::abs(cosine[h]) * share[h];
     }
     const float scale = meanScale(hits, texel);
     out.reflected[texel] = std::min(out.reflected[texel] * scale, 1.0f);
@@ -188,30 +192,28 @@ LayerLuminance luminanceOf(const LayerHits& hits, std::span<const float> arrivin
   return out;
 }
 
-LayerVisibility visibilityOf(const LayerHits& hits, std::span<const std::vector<float>> arriving,
-                             std::span<const glm::dvec3> lights) {
+LayerVisibility visibilityOf(const LayerHits& hits, const ArrivingLight& arriving,
+                             std::span<const glm::dvec3> directions) {
   LayerVisibility out;
   out.visibility.resize(hits.texels(), 0.0f);
   out.skyReflected.resize(hits.texels(), 0.0f);
   out.skyTransmitted.resize(hits.texels(), 0.0f);
-  const std::vector<char> seesBlade = viewersOf(hits.set, lights);
+  const std::vector<char> seesBlade = viewersOf(hits.set, directions);
   const auto viewers = static_cast<float>(std::count(seesBlade.begin(), seesBlade.end(), char{1}));
   // As in sampleVisibility: the directions share the hemisphere's 2 pi.
-  const float skyWeight = 2.0f / static_cast<float>(lights.size());
+  const float skyWeight = 2.0f / static_cast<float>(directions.size());
   for (std::size_t texel = 0; texel < hits.texels(); ++texel) {
-    const float scale = meanScale(hits, texel);
-    for (std::uint32_t h = hits.hitStart[texel]; h < hits.hitStart[texel + 1]; ++h) {
-      const glm::vec3 normal = decodeNormal(hits.hits[h].normal);
-      for (std::size_t d = 0; d < lights.size(); ++d) {
-        const float cosine = glm::dot(normal, glm::vec3(lights[d]));
-        const float share = scale * arriving[d][h];
+    for (std::size_t d = 0; d < directions.size(); ++d) {
+      for (std::uint32_t h = hits.hitStart[texel]; h < hits.hitStart[texel + 1]; ++h) {
+        const float cosine = arriving.cosine[d][h], share = arriving.share[d][h];
         (cosine > 0.0f ? out.skyReflected : out.skyTransmitted)[texel] += share * std::abs(cosine);
         out.visibility[texel] += seesBlade[d] != 0 ? share : 0.0f;
       }
     }
-    out.visibility[texel] = std::min(out.visibility[texel] / viewers, 1.0f);
-    out.skyReflected[texel] = std::min(out.skyReflected[texel] * skyWeight, 1.0f);
-    out.skyTransmitted[texel] = std::min(out.skyTransmitted[texel] * skyWeight, 1.0f);
+    const float scale = meanScale(hits, texel);
+    out.visibility[texel] = std::min(out.visibility[texel] * scale / viewers, 1.0f);
+    out.skyReflected[texel] = std::min(out.skyReflected[texel] * scale * skyWeight, 1.0f);
+    out.skyTransmitted[texel] = std::min(out.skyTransmitted[texel] * scale * skyWeight, 1.0f);
   }
   return out;
 }

@@ -9,6 +9,12 @@
 
 namespace sward::trace {
 
+/// Light of each direction at each hit of a set.
+struct ArrivingLight {
+  std::vector<std::vector<float>> share;   ///< [direction][hit]: what arrives, in [0, 1]
+  std::vector<std::vector<float>> cosine;  ///< [direction][hit]: between the normal and the direction
+};
+
 /// How much light of some directions reaches any point among the plants, without a ray: the patch is cut into voxels
 /// that hold how much leaf they turn to each direction, and light weakens in them as in a turbid medium (Monsi and
 /// Saeki 1953; Ross 1981): by exp(-leaf area across the light / area). Shadows of single blades are lost, those of
@@ -28,11 +34,11 @@ class CanopyLight {
   /// [0, 1].
   float at(std::size_t direction, const glm::vec3& position, LayerSet seenBy) const;
 
-  /// at() of every hit of a set: [direction][hit].
-  std::vector<std::vector<float>> arriving(const LayerHits& hits, const JobContext& job) const;
+  /// What reaches every hit of a set.
+  ArrivingLight arriving(const LayerHits& hits, const JobContext& job) const;
 
  private:
-  std::size_t cell(int x, int y) const;
+  int wrapped(int cell) const;
   float bilinear(const float* plane, float x, float y) const;
   void deposit(const TriangleField& field, const JobContext& job);
   void spread(std::size_t direction);
@@ -46,10 +52,10 @@ class CanopyLight {
   std::vector<float> m_light;
 };
 
-/// sampleLuminance of a light of which `arriving` reaches each hit.
-LayerLuminance luminanceOf(const LayerHits& hits, std::span<const float> arriving, const glm::dvec3& light);
-/// sampleVisibility from what arrives of several lights that spread evenly over the hemisphere.
-LayerVisibility visibilityOf(const LayerHits& hits, std::span<const std::vector<float>> arriving,
-                             std::span<const glm::dvec3> lights);
+/// sampleLuminance of one of the directions.
+LayerLuminance luminanceOf(const LayerHits& hits, const ArrivingLight& arriving, std::size_t direction);
+/// sampleVisibility from directions that spread evenly over the hemisphere.
+LayerVisibility visibilityOf(const LayerHits& hits, const ArrivingLight& arriving,
+                             std::span<const glm::dvec3> directions);
 
 }  // namespace sward::trace

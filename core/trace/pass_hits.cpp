@@ -1,6 +1,7 @@
 // Layer samples without rays: every triangle is held against the sub-samples that its outline on the image may cover,
 // and each sub-sample keeps the nearest, as a z-buffer does, one for every slab.
 #include "base/parallel.h"
+#include "trace/fast_floor.h"
 #include "trace/triangle_field.h"
 
 #include <atomic>
@@ -13,12 +14,6 @@ namespace {
 constexpr std::uint64_t kNothing = ~std::uint64_t{0};
 constexpr std::size_t kPartGrain = 32;
 
-/// floor of a moderate number, without the call that std::floor is on the oldest processors.
-int floorOf(float value) {
-  const int truncated = static_cast<int>(value);
-  return static_cast<float>(truncated) > value ? truncated - 1 : truncated;
-}
-
 /// A triangle seen along an axis of the world: a along an image's rows, b across them, d along the axis; metres.
 struct FlatTriangle {
   std::array<float, 3> a, b, d;
@@ -27,9 +22,32 @@ struct FlatTriangle {
 /// Least and greatest of three.
 struct Extent {
   float low, high;
+  Extent(float least, float most) : low(least), high(most) {}
   explicit Extent(const std::array<float, 3>& v)
       : low(std::min(v[0], std::min(v[1], v[2]))), high(std::max(v[0], std::max(v[1], v[2]))) {}
 };
+
+/// Extent of `values` over the part of a triangle whose `along` lies in [from, to], or a little more; all of it where
+/// the triangle only touches that.
+Extent extentWithin(const std::array<float, 3>& along, const std::array<float, 3>& values, float from, float to,
+                    float slack) {
+  const Extent all(values);
+  float least = all.high, most = all.low;
+  const auto include = [&](float value) {
+    least = std::min(least, value);
+    most = std::max(most, value);
+  };
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t n = k == 2 ? 0 : k + 1;
+    if (along[k] >= from && along[k] <= to) include(values[k]);
+    for (const float border : {from, to}) {
+      if ((along[k] < border) == (along[n] < border)) continue;
+      include(values[k] + (border - along[k]) / (along[n] - along[k]) * (values[n] - values[k]));
+    }
+  }
+  if (least > most) return all;
+  return {std::max(all.low, least - slack), std::min(all.high, most + slack)};
+}
 
 struct Point {
   float u, v, d;  ///< barycentric, and along the axis
@@ -48,7 +66,8 @@ class Inside {
     const float da = a - m_f.a[0], db = b - m_f.b[0];
     point.u = (da * m_b2 - db * m_a2) * m_inverse;
     point.v = (m_a1 * db - m_b1 * da) * m_inverse;
-    if (!(point.u >= 0.0f && point.v >= 0.0f && point.u + point.v <= 1.0f)) return false;
+    // One comparison that is seldom true, since three that are half the time cost more by wrong guesses than all else.
+    if (!(std::min(std::min(point.u, point.v), 1.0f - (point.u + point.v)) >= 0.0f)) return false;
     point.d = m_f.d[0] + point.u * (m_f.d[1] - m_f.d[0]) + point.v * (m_f.d[2] - m_f.d[0]);
     return true;
   }
@@ -64,12 +83,8 @@ class View {
   View(LayerSet set, const TriangleField& field, const SamplingOptions& options, const LayerHits& out, int a, int b,
        int axis);
 
-  /// The samples of cells x0..x1, y0..y1 in every slab that the triangle reaches.
-  struct Cells {
-    int x0, x1, y0, y1;
-  };
-  void cover(const FlatTriangle& flat, const Inside& inside, const Cells& cells, const TriangleField::Part& part,
-             std::uint32_t triangle);
+  /// Holds the triangle against the samples of every slab that it reaches.
+  void cover(const FlatTriangle& flat, const Inside& inside, const TriangleField::Part& part, std::uint32_t triangle);
   /// Replaces the hits; visitPlaces(triangle, visit) as AxisPass::forPlaces.
   template <typename VisitPlaces>
   void pack(const TriangleField& field, const VisitPlaces& visitPlaces, LayerHits& out) const;
@@ -89,11 +104,18 @@ class View {
     const auto column = static_cast<std::size_t>(y * m_shape.width + x);
     return m_pattern.bitsOf(m_pattern.columnSeed(column), layer, subSample);
   }
+  struct Cells {
+    int x0, x1, y0, y1;
+  };
+  Cells cellsOf(const Extent& a, const Extent& b) const;
+  void coverLayer(int layer, const Cells& cells, const Inside& inside, const TriangleField::Part& part,
+                  std::uint32_t triangle);
   void keep(std::size_t sample, float t, std::uint32_t triangle);
 
   LayerShape m_shape;
   int m_subSamples;
   SamplePattern m_pattern;
+  float m_cellsA, m_cellsB;  ///< a metre
   float m_layersPerMetre;
   std::vector<float> m_borders;  ///< of the slabs along the rays
   float m_sign, m_offset;        ///< distance along the rays = sign * d + offset
@@ -109,6 +131,8 @@ View::View(LayerSet set, const TriangleField& field, const SamplingOptions& opti
       m_subSamples(out.subSamples),
       m_pattern(set, static_cast<float>(field.patch().sideM), static_cast<float>(field.patch().heightM), out.shape,
                 out.subSamples, options.seed),
+      m_cellsA(static_cast<float>(m_shape.width) / glm::length(m_pattern.rays().uAxis)),
+      m_cellsB(static_cast<float>(m_shape.height) / glm::length(m_pattern.rays().vAxis)),
       m_layersPerMetre(static_cast<float>(m_shape.layers) / m_pattern.rays().depth),
       m_sign(m_pattern.rays().direction[axis]),
       m_offset(-m_pattern.rays().origin[axis] * m_sign) {
@@ -129,35 +153,59 @@ View::View(LayerSet set, const TriangleField& field, const SamplingOptions& opti
   }
 }
 
-void View::cover(const FlatTriangle& flat, const Inside& inside, const Cells& cells, const TriangleField::Part& part,
+void View::cover(const FlatTriangle& flat, const Inside& inside, const TriangleField::Part& part,
                  std::uint32_t triangle) {
   const SetRays& rays = m_pattern.rays();
-  const Extent d(flat.d);
+  const Extent d(flat.d), a(flat.a), b(flat.b);
   const float t0 = m_sign * d.low + m_offset, t1 = m_sign * d.high + m_offset;
   const float slack = 16.0f * rays.rounding;  // the exact borders are asked for each point
   const auto layerAt = [&](float at) {
     return std::clamp(floorOf((at - rays.lead) * m_layersPerMetre), 0, m_shape.layers - 1);
   };
-  const int last = layerAt(std::max(t0, t1) + slack);
-  for (int layer = layerAt(std::min(t0, t1) - slack); layer <= last; ++layer) {
-    const float start = m_borders[static_cast<std::size_t>(layer)],
-                end = m_borders[static_cast<std::size_t>(layer) + 1];
-    for (int y = cells.y0; y <= cells.y1; ++y) {
-      const std::size_t first = index(layer, y, cells.x0, 0), after = index(layer, y, cells.x1 + 1, 0);
-      for (std::size_t sample = first; sample < after; ++sample) {
-        Point point;
-        if (!inside(m_samples[sample].a, m_samples[sample].b, point)) continue;
-        const float t = m_sign * point.d + m_offset;
-        if (t < start || t > end) continue;
-        if (part.alpha) {
-          const auto offset = static_cast<int>(sample - first);
-          const std::uint64_t bits = bitsOf(layer, y, cells.x0 + offset / m_subSamples, offset % m_subSamples);
-          const std::uint32_t own = triangle - part.firstTriangle;
-          const std::uint64_t chance = base::mix64(SamplePattern::rayId(bits), part.instance, own);
-          if (!(base::unitFloat(chance) < mesh::alphaAt(*part.model, own, point.u, point.v))) continue;
-        }
-        keep(sample, t, triangle);
+  const int first = layerAt(std::min(t0, t1) - slack), last = layerAt(std::max(t0, t1) + slack);
+  const Cells all = cellsOf(a, b);
+  // A long blade that leans through several slabs covers few of its cells in each. For a few, asking costs less.
+  constexpr int kFew = 8;
+  const bool clip = first != last && (all.x1 - all.x0 + 1) * (all.y1 - all.y0 + 1) * m_subSamples > kFew;
+  for (int layer = first; layer <= last; ++layer) {
+    if (!clip) {
+      coverLayer(layer, all, inside, part, triangle);
+      continue;
+    }
+    const auto l = static_cast<std::size_t>(layer);
+    const float one = (m_borders[l] - slack - m_offset) * m_sign,
+                other = (m_borders[l + 1] + slack - m_offset) * m_sign;
+    const float from = std::min(one, other), to = std::max(one, other);
+    coverLayer(layer,
+               cellsOf(extentWithin(flat.d, flat.a, from, to, slack), extentWithin(flat.d, flat.b, from, to, slack)),
+               inside, part, triangle);
+  }
+}
+
+View::Cells View::cellsOf(const Extent& a, const Extent& b) const {
+  const auto cell = [](float v, int count) { return std::clamp(floorOf(v), 0, count - 1); };
+  return {cell(a.low * m_cellsA, m_shape.width), cell(a.high * m_cellsA, m_shape.width),
+          cell(b.low * m_cellsB, m_shape.height), cell(b.high * m_cellsB, m_shape.height)};
+}
+
+void View::coverLayer(int layer, const Cells& cells, const Inside& inside, const TriangleField::Part& part,
+                      std::uint32_t triangle) {
+  const float start = m_borders[static_cast<std::size_t>(layer)], end = m_borders[static_cast<std::size_t>(layer) + 1];
+  for (int y = cells.y0; y <= cells.y1; ++y) {
+    const std::size_t first = index(layer, y, cells.x0, 0), after = index(layer, y, cells.x1 + 1, 0);
+    for (std::size_t sample = first; sample < after; ++sample) {
+      Point point;
+      if (!inside(m_samples[sample].a, m_samples[sample].b, point)) continue;
+      const float t = m_sign * point.d + m_offset;
+      if (t < start || t > end) continue;
+      if (part.alpha) {
+        const auto offset = static_cast<int>(sample - first);
+        const std::uint64_t bits = bitsOf(layer, y, cells.x0 + offset / m_subSamples, offset % m_subSamples);
+        const std::uint32_t own = triangle - part.firstTriangle;
+        const std::uint64_t chance = base::mix64(SamplePattern::rayId(bits), part.instance, own);
+        if (!(base::unitFloat(chance) < mesh::alphaAt(*part.model, own, point.u, point.v))) continue;
       }
+      keep(sample, t, triangle);
     }
   }
 }
@@ -220,11 +268,8 @@ class AxisPass {
         m_a(m_sets.front() == LayerSet::BladesPosX ? 1 : 0),
         m_b(m_slices ? 1 : 2),
         m_axis(m_slices ? 2 : 1 - m_a),
-        m_shape(hitsOf(all, m_sets.front()).shape),
         m_side(static_cast<float>(field.patch().sideM)),
-        m_patchesPerMetre(1.0f / m_side),
-        m_cellsA(static_cast<float>(m_shape.width) / m_side),
-        m_cellsB(static_cast<float>(m_shape.height) / (m_slices ? m_side : static_cast<float>(field.patch().heightM))) {
+        m_patchesPerMetre(1.0f / m_side) {
     for (const LayerSet set : m_sets) m_views.emplace_back(set, field, options, hitsOf(all, set), m_a, m_b, m_axis);
   }
 
@@ -276,19 +321,14 @@ class AxisPass {
   void coverPlace(const FlatTriangle& flat, const TriangleField::Part& part, std::uint32_t triangle) {
     const Inside inside(flat);
     if (inside.empty()) return;
-    const Extent a(flat.a), b(flat.b);
-    const auto cell = [](float v, int count) { return std::clamp(floorOf(v), 0, count - 1); };
-    const View::Cells cells{cell(a.low * m_cellsA, m_shape.width), cell(a.high * m_cellsA, m_shape.width),
-                            cell(b.low * m_cellsB, m_shape.height), cell(b.high * m_cellsB, m_shape.height)};
-    for (View& view : m_views) view.cover(flat, inside, cells, part, triangle);
+    for (View& view : m_views) view.cover(flat, inside, part, triangle);
   }
 
   const TriangleField& m_field;
   std::vector<LayerSet> m_sets;
   bool m_slices;
   int m_a, m_b, m_axis;
-  LayerShape m_shape;
-  float m_side, m_patchesPerMetre, m_cellsA, m_cellsB;
+  float m_side, m_patchesPerMetre;
   std::vector<View> m_views;
 };
 

@@ -25,7 +25,8 @@ RayCounts PatchScene::rayCounts() const {
   return {m_impl->nearestCount.load(), m_impl->occlusionCount.load()};
 }
 
-Result<std::unique_ptr<PatchScene>> PatchScene::create(std::shared_ptr<const scene::Patch> patch) {
+Result<std::unique_ptr<PatchScene>> PatchScene::create(std::shared_ptr<const scene::Patch> patch,
+                                                       const JobContext& job) {
   SWARD_CHECK(patch != nullptr);
   if (!std::isfinite(patch->sideM) || patch->sideM <= 0.0 || !std::isfinite(patch->heightM) || patch->heightM < 0.0) {
     return Error::badInput("the patch has no size", "patch", "Its side must be a positive number of metres.");
@@ -40,7 +41,7 @@ Result<std::unique_ptr<PatchScene>> PatchScene::create(std::shared_ptr<const sce
   if (!impl.device) {
     return Error::failed("Embree cannot start", "ray tracing", "It needs a processor with SSE2 and some free memory.");
   }
-  SWARD_TRY(buildScene(impl));
+  SWARD_TRY(buildScene(impl, job));
   return scene;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/job.h"
 #include "base/result.h"
 #include "scene/patch.h"
 
@@ -25,7 +26,9 @@ struct RayCounts {
 class PatchScene {
  public:
   /// An error when Embree cannot be had. A patch without instances is fine: nothing is ever hit.
-  static Result<std::unique_ptr<PatchScene>> create(std::shared_ptr<const scene::Patch> patch);
+  /// A cancelled job returns Error::cancelled(), also while the tree is built.
+  static Result<std::unique_ptr<PatchScene>> create(std::shared_ptr<const scene::Patch> patch,
+                                                    const JobContext& job = {});
   ~PatchScene();
 
   const scene::Patch& patch() const;

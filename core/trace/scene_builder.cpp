@@ -226,7 +226,7 @@ Result<void> requireTraceable(const scene::Patch& patch) {
   return {};
 }
 
-Result<void> buildScene(PatchScene::Impl& impl) {
+Result<void> buildScene(PatchScene::Impl& impl, const JobContext& job) {
   SWARD_ASSIGN(const std::vector<Placement> placements, placeCopies(*impl.patch));
   if (placements.empty()) return {};
   std::uint64_t triangles = 0;
@@ -240,7 +240,13 @@ Result<void> buildScene(PatchScene::Impl& impl) {
     impl.top.reset();
     return {};
   }
+  if (job.cancelled()) return Error::cancelled();
+  rtcSetSceneProgressMonitorFunction(
+      impl.top.get(), [](void* asked, double) { return !static_cast<const JobContext*>(asked)->cancelled(); },
+      const_cast<JobContext*>(&job));
   rtcCommitScene(impl.top.get());
+  rtcSetSceneProgressMonitorFunction(impl.top.get(), nullptr, nullptr);
+  if (job.cancelled()) return Error::cancelled();
   const RTCError error = rtcGetDeviceError(impl.device.get());
   if (error == RTC_ERROR_OUT_OF_MEMORY) return outOfMemory();
   if (error != RTC_ERROR_NONE) {

@@ -15,7 +15,7 @@ inline constexpr int kMaxReach = 8;
 Result<void> requireTraceable(const scene::Patch& patch);
 
 /// Fills copies, modelScenes, alpha and top from impl.patch, with impl.device, side and height set. Errors: a vertex
-/// that is not finite, a plant far larger than the patch, Embree out of memory.
-Result<void> buildScene(PatchScene::Impl& impl);
+/// that is not finite, a plant far larger than the patch, Embree out of memory, cancellation.
+Result<void> buildScene(PatchScene::Impl& impl, const JobContext& job);
 
 }  // namespace sward::trace

@@ -89,7 +89,7 @@ TEST(Passes, GiveTheSameBytesOnAnyNumberOfThreads) {
   for (const int threads : {1, 2, 4}) {
     const JobContext job{{}, {}, threads};
     const auto hits = passHits(*field, coarseOptions(), job).value();
-    const auto light = CanopyLight(*field, 16, 8, lights, job).arriving(hits[0], job);
+    const auto light = CanopyLight(*field, 16, 8, lights, job).arriving(hits[0], job).share;
     if (first.empty()) {
       first = hits[0].hits;
       firstLight = light;
@@ -154,12 +154,13 @@ TEST(CanopyLight, AgreesWithRaysOnTheWhole) {
   const CanopyLight light(*field, options.sliceResolution / 2, options.slices, lights, {});
   for (const LayerHits& set : hits) {
     const auto arriving = light.arriving(set, {});
-    const std::vector<float> everything(set.hits.size(), 1.0f);
+    ArrivingLight everything = arriving;
+    for (auto& share : everything.share) std::fill(share.begin(), share.end(), 1.0f);
     double rays = 0.0, medium = 0.0, bare = 0.0;
     for (std::size_t d = 0; d < lights.size(); ++d) {
       const LayerLuminance traced = sampleLuminance(*scene, set, lights[d], {}).value();
-      const LayerLuminance spread = luminanceOf(set, arriving[d], lights[d]);
-      const LayerLuminance free = luminanceOf(set, everything, lights[d]);
+      const LayerLuminance spread = luminanceOf(set, arriving, d);
+      const LayerLuminance free = luminanceOf(set, everything, d);
       rays += sum(traced.reflected) + sum(traced.transmitted);
       medium += sum(spread.reflected) + sum(spread.transmitted);
       bare += sum(free.reflected) + sum(free.transmitted);

@@ -61,6 +61,8 @@ class Application : public EditSink {
   /// Seconds at which a frame is wanted without any event; none: only when something happens.
   std::optional<double> nextWake() const;
 
+  /// A key went down with these modifiers: the next frame runs the action that it is a shortcut of.
+  void keyPressed(const Shortcut& key) { m_keys.push_back(key); }
   void dropped(const std::vector<std::filesystem::path>& files);
   /// The window's close button: asks about unsaved changes first.
   void closeRequested();
@@ -175,6 +177,7 @@ class Application : public EditSink {
   std::function<void(const std::filesystem::path&)> m_fileChosen;
 
   Layout m_layout;
+  std::vector<Shortcut> m_keys;  ///< pressed since the last frame
   BottomTab m_shownTab = BottomTab::Curves;
   double m_seconds = 0.0;
   bool m_quit = false;

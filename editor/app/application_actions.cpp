@@ -8,7 +8,6 @@
 #include "project/presets.h"
 
 #include <algorithm>
-#include <array>
 
 #include <imgui.h>
 
@@ -20,9 +19,6 @@ std::vector<Shortcut> keys(std::initializer_list<const char*> texts) {
   for (const char* text : texts) shortcuts.push_back(Shortcut::parse(text));
   return shortcuts;
 }
-
-/// Keys that actions may use, as ImGui's arrays number them with GLFW's backend.
-constexpr std::array<std::pair<int, int>, 3> kKeyRanges{{{32, 96}, {256, 269}, {290, 301}}};
 
 }  // namespace
 
@@ -185,14 +181,12 @@ void Application::registerHelpActions() {
 }
 
 void Application::handleShortcuts() {
-  const ImGuiIO& io = ImGui::GetIO();
-  if (ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel)) return;
-  for (const auto& [first, last] : kKeyRanges) {
-    for (int key = first; key <= last; ++key) {
-      if (!ImGui::IsKeyPressed(key, false)) continue;
-      const Action* action = m_actions.forShortcut({key, io.KeyCtrl, io.KeyShift, io.KeyAlt}, io.WantTextInput);
-      if (action != nullptr && action->isEnabled()) action->run();
-    }
+  const std::vector<Shortcut> keys = std::exchange(m_keys, {});
+  const bool popup = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+  if (popup || m_fileDialog.isOpen()) return;
+  for (const Shortcut& key : keys) {
+    const Action* action = m_actions.forShortcut(key, ImGui::GetIO().WantTextInput);
+    if (action != nullptr && action->isEnabled()) action->run();
   }
 }
 

@@ -21,6 +21,9 @@ void Application::setDialogActions() {
   m_dialogActions.useTemplate = [this](const std::string& name) { startFromTemplate(name); };
   m_dialogActions.recover = [this](const std::filesystem::path& autosave) { recoverFrom(autosave); };
   m_dialogActions.preferencesChanged = [this] { m_styleChanged = true; };
+  m_dialogActions.rememberPreferences = [this] {
+    if (const auto saved = savePreferences(m_preferences); !saved.ok()) notice(saved.error().text());
+  };
   m_dialogActions.chooseOutput = [this](std::function<void(const std::filesystem::path&)> then) { chooseOutput(then); };
   m_dialogActions.browse = [this](const std::string& where, const std::string& files) { browse(where, files); };
   m_dialogActions.notice = [this](const std::string& text) { notice(text); };

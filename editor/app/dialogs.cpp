@@ -287,7 +287,7 @@ void Dialogs::drawMissing(const Input& input) {
 }
 
 void Dialogs::drawHints(const Input& input) {
-  if (!m_hints) return;
+  if (!m_hints || m_kind != Kind::None) return;
   ImGui::SetNextWindowPos({0.5f * static_cast<float>(input.width), static_cast<float>(input.height) - px(300.0f)},
                           ImGuiCond_Appearing, {0.5f, 1.0f});
   ImGui::SetNextWindowSize({px(520.0f), 0.0f});
@@ -303,6 +303,7 @@ void Dialogs::drawHints(const Input& input) {
     if (button("Got it", "hintsDone", true)) {
       m_hints = false;
       input.preferences.showHints = false;
+      input.act.rememberPreferences();
     }
   }
   ImGui::End();

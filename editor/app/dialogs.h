@@ -20,7 +20,8 @@ namespace sward::editor {
 struct DialogActions {
   std::function<void(const std::string& name)> useTemplate;
   std::function<void(const std::filesystem::path& autosave)> recover;
-  std::function<void()> preferencesChanged;  ///< theme or scale
+  std::function<void()> preferencesChanged;   ///< theme or scale
+  std::function<void()> rememberPreferences;  ///< writes them now: a program that is killed writes nothing
   std::function<void(std::function<void(const std::filesystem::path&)>)> chooseOutput;
   std::function<void(const std::string& where, const std::filesystem::path& file)> relocate;
   std::function<void(const std::string& where, const std::string& files)> browse;

@@ -114,7 +114,10 @@ void Dialogs::drawPreferences(const Input& input) {
   labelled("First steps", "Five things to try, when the editor starts");
   ImGui::Checkbox("##hints", &preferences.showHints);
   ImGui::Dummy({0.0f, px(10.0f)});
-  if (button("Close", "close", true)) close();
+  if (button("Close", "close", true)) {
+    input.act.rememberPreferences();
+    close();
+  }
   ImGui::EndPopup();
 }
 

@@ -79,6 +79,8 @@ struct Events {
   bool any = false;
   bool close = false;
   std::vector<std::filesystem::path> dropped;
+  /// ImGui sees keys as they stand at the start of a frame; a short press during a long frame would be lost on it.
+  std::vector<Shortcut> keys;
 };
 
 Events& eventsOf(GLFWwindow* window) {
@@ -91,7 +93,12 @@ void installCallbacks(GLFWwindow* window, Events& events) {
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double, double) { eventsOf(w).any = true; });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int, int, int) { eventsOf(w).any = true; });
   glfwSetScrollCallback(window, [](GLFWwindow* w, double, double) { eventsOf(w).any = true; });
-  glfwSetKeyCallback(window, [](GLFWwindow* w, int, int, int, int) { eventsOf(w).any = true; });
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int modifiers) {
+    eventsOf(w).any = true;
+    if (action != GLFW_PRESS) return;
+    eventsOf(w).keys.push_back({key, (modifiers & GLFW_MOD_CONTROL) != 0, (modifiers & GLFW_MOD_SHIFT) != 0,
+                                (modifiers & GLFW_MOD_ALT) != 0});
+  });
   glfwSetCharCallback(window, [](GLFWwindow* w, unsigned) { eventsOf(w).any = true; });
   glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int) { eventsOf(w).any = true; });
   glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int) { eventsOf(w).any = true; });
@@ -174,6 +181,7 @@ class WindowLoop {
   bool takeEvents() {
     if (m_events.close) m_application.closeRequested();
     if (!m_events.dropped.empty()) m_application.dropped(m_events.dropped);
+    for (const Shortcut& key : m_events.keys) m_application.keyPressed(key);
     const bool any = m_events.any || m_events.close || !m_events.dropped.empty();
     m_events = {};
     return any;

@@ -12,8 +12,10 @@ void drawThumbnail(const PanelContext& context, std::size_t index, ImVec2 corner
   const auto& pictures = *context.live.thumbnails;
   const auto found = pictures.find(index);
   if (found != pictures.end() && found->second.texture != 0) {
-    // ImGui's OpenGL backend takes the texture's name for its handle.
-    draw->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(found->second.texture)), corner, end);
+    // Thin blades cover little of a small picture: drawn three times they can be seen. ImGui's OpenGL backend takes the
+    // texture's name for its handle.
+    for (int i = 0; i < 3; ++i)
+      draw->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(found->second.texture)), corner, end);
     return;
   }
   const ImVec2 size = ImGui::CalcTextSize(icon);

@@ -207,13 +207,15 @@ void ViewportPanel::overlays(PanelContext& context) {
   const float scale = context.scale;
   const ImVec2 corner{m_left, m_top};
   const auto pill = [&](const ImVec2& at, const std::string& text, ImU32 dot) {
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
     const ImVec2 pad{10.0f * scale, 5.0f * scale};
-    const float dotWidth = dot != 0 ? 14.0f * scale : 0.0f;
+    const float dotWidth = 14.0f * scale;
+    const float room = std::max(static_cast<float>(m_width) - 24.0f * scale - 2.0f * pad.x - dotWidth, 40.0f * scale);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, room);
     const ImVec2 end = at + ImVec2(size.x + 2.0f * pad.x + dotWidth, size.y + 2.0f * pad.y);
     draw->AddRectFilled(at, end, IM_COL32(20, 22, 20, 190), 10.0f * scale);
-    if (dot != 0) draw->AddCircleFilled(at + ImVec2(pad.x + 3.0f * scale, 0.5f * (end.y - at.y)), 4.0f * scale, dot);
-    draw->AddText(at + ImVec2(pad.x + dotWidth, pad.y), IM_COL32(235, 238, 232, 255), text.c_str());
+    draw->AddCircleFilled(at + ImVec2(pad.x + 3.0f * scale, pad.y + 0.5f * ImGui::GetTextLineHeight()), 4.0f * scale, dot);
+    draw->AddText(ImGui::GetFont(), ImGui::GetFontSize(), at + ImVec2(pad.x + dotWidth, pad.y),
+                  IM_COL32(235, 238, 232, 255), text.c_str(), nullptr, room);
   };
   const LiveState& live = context.live;
   if (live.viewError) {

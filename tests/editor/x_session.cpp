@@ -105,6 +105,7 @@ EditorSession::EditorSession(const XServer& server, const fs::path& home, std::v
                              std::map<std::string, std::string> environment)
     : m_display(server.display()), m_home(home), m_log(home / "items.json") {
   fs::create_directories(home);
+  fs::remove(m_log);  // of a session before
   environment.insert({{"DISPLAY", m_display},
                       {"HOME", home.string()},
                       {"XDG_CONFIG_HOME", (home / "config").string()},
@@ -228,7 +229,10 @@ bool EditorSession::drag(const std::string& name, double dx, double dy, int butt
 }
 
 void EditorSession::key(const std::string& keys) {
-  xdotool({"key", keys});
+  // Held as long as a finger does.
+  xdotool({"keydown", keys});
+  std::this_thread::sleep_for(kStepPause * 3);
+  xdotool({"keyup", keys});
   std::this_thread::sleep_for(kStepPause * 6);
 }
 
@@ -245,6 +249,10 @@ void EditorSession::keyUp(const std::string& key) {
 void EditorSession::type(const std::string& text) {
   xdotool({"type", "--delay", "40", text});
   std::this_thread::sleep_for(kStepPause * 6);
+}
+
+void EditorSession::focus() {
+  xdotool({"search", "--sync", "--onlyvisible", "--name", "Sward", "windowfocus", "--sync"});
 }
 
 void EditorSession::resize(int width, int height) {

@@ -74,6 +74,8 @@ class EditorSession {
   void keyDown(const std::string& key);
   void keyUp(const std::string& key);
   void type(const std::string& text);
+  /// Gives the window the keyboard: there is no window manager that would.
+  void focus();
   void resize(int width, int height);
   std::string errors() const;
 

@@ -88,7 +88,8 @@ double Curve::derivative(double x) const {
   const double h = m_points[i + 1].x - m_points[i].x;
   const double t = (x - m_points[i].x) / h;
   const double secant = (m_points[i + 1].y - m_points[i].y) / h;
-  return 6.0 * t * (1.0 - t) * secant + (1.0 - t) * (1.0 - 3.0 * t) * m_slopes[i] + t * (3.0 * t - 2.0) * m_slopes[i + 1];
+  return 6.0 * t * (1.0 - t) * secant + (1.0 - t) * (1.0 - 3.0 * t) * m_slopes[i] +
+         t * (3.0 * t - 2.0) * m_slopes[i + 1];
 }
 
 }  // namespace sward::base

@@ -19,7 +19,9 @@ std::string Hash128::hex() const {
   return text;
 }
 
-Hasher::Hasher() : m_state(std::make_unique<State>()) { XXH3_128bits_reset(&m_state->xxh); }
+Hasher::Hasher() : m_state(std::make_unique<State>()) {
+  XXH3_128bits_reset(&m_state->xxh);
+}
 Hasher::~Hasher() = default;
 Hasher::Hasher(Hasher&&) noexcept = default;
 Hasher& Hasher::operator=(Hasher&&) noexcept = default;
@@ -34,8 +36,12 @@ Hasher& Hasher::bytes(std::span<const std::byte> data) {
   return raw(data.data(), data.size());
 }
 
-Hasher& Hasher::add(std::string_view text) { return bytes(std::as_bytes(std::span(text))); }
-Hasher& Hasher::add(const Hash128& hash) { return add(hash.high).add(hash.low); }
+Hasher& Hasher::add(std::string_view text) {
+  return bytes(std::as_bytes(std::span(text)));
+}
+Hasher& Hasher::add(const Hash128& hash) {
+  return add(hash.high).add(hash.low);
+}
 
 Hash128 Hasher::finish() const {
   const XXH128_hash_t hash = XXH3_128bits_digest(&m_state->xxh);

@@ -21,6 +21,8 @@ Error Error::badInput(std::string what, std::string where, std::string remedy) {
   return {ErrorKind::BadInput, std::move(what), std::move(where), std::move(remedy)};
 }
 
-Error Error::cancelled() { return {ErrorKind::Cancelled, "cancelled", {}, {}}; }
+Error Error::cancelled() {
+  return {ErrorKind::Cancelled, "cancelled", {}, {}};
+}
 
 }  // namespace sward::base

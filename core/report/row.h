@@ -18,11 +18,13 @@ struct TimeMs {
 /// One row of report.json (design.md). Only what was measured in this run is set.
 struct Row {
   std::string method;
-  std::map<std::string, std::string> numbersAndNames;  ///< "parameters": values as JSON text, such as {"slices", "16"} or {"basis", "\"lpt\""}
+  std::map<std::string, std::string>
+      numbersAndNames;  ///< "parameters": values as JSON text, such as {"slices", "16"} or {"basis", "\"lpt\""}
   std::optional<TimeMs> timeMs;
-  std::optional<double> rate;      ///< per second, of what `rateUnit` says
-  std::string rateUnit;            ///< goes into the parameters as "rate_unit"
-  std::optional<double> ratio;     ///< this over `against`, as rate over rate (above 1 is better) unless notes say otherwise
+  std::optional<double> rate;  ///< per second, of what `rateUnit` says
+  std::string rateUnit;        ///< goes into the parameters as "rate_unit"
+  std::optional<double>
+      ratio;  ///< this over `against`, as rate over rate (above 1 is better) unless notes say otherwise
   std::string against;
   std::optional<double> bakeSeconds;
   std::optional<std::uint64_t> bytes, bytesTotal;

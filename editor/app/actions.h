@@ -48,8 +48,8 @@ class ActionTable {
   std::vector<Action> m_actions;
 };
 
-/// How well `text` matches `query`: nothing when its letters do not all occur in order (case ignored); higher is better,
-/// with runs of letters and starts of words counting most.
+/// How well `text` matches `query`: nothing when its letters do not all occur in order (case ignored); higher is
+/// better, with runs of letters and starts of words counting most.
 int matchScore(std::string_view query, std::string_view text);
 
 }  // namespace sward::editor

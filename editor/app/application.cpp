@@ -15,11 +15,9 @@ constexpr double kToastSeconds = 0.1;
 
 }  // namespace
 
-Application::Application(ApplicationOptions options, LoadedPreferences loaded, const UiGl& gl, std::function<void()> wake)
-    : m_options(std::move(options)),
-      m_preferences(std::move(loaded.preferences)),
-      m_gl(gl),
-      m_wake(std::move(wake)) {
+Application::Application(ApplicationOptions options, LoadedPreferences loaded, const UiGl& gl,
+                         std::function<void()> wake)
+    : m_options(std::move(options)), m_preferences(std::move(loaded.preferences)), m_gl(gl), m_wake(std::move(wake)) {
   for (const std::string& message : loaded.messages) notice(message);
   const auto remembered = [&](const char* panel, float& size) {
     const auto found = m_preferences.panelSizes.find(panel);
@@ -39,6 +37,7 @@ Application::Application(ApplicationOptions options, LoadedPreferences loaded, c
   registerActions();
   setDialogActions();
   openAtStart();
+  if (m_options.unattended) return;
   if (m_preferences.showHints) m_dialogs.openHints();
   RecoveryList recoverable = findRecoverable();
   if (!recoverable.usable.empty() || !recoverable.damaged.empty()) m_dialogs.offerRecovery(std::move(recoverable));

@@ -41,6 +41,7 @@ struct ApplicationOptions {
   std::optional<gpu::Device> device;  ///< none: the preferences'
   std::filesystem::path itemLog;      ///< where each frame's items are written for tests; empty: nowhere
   std::string version;
+  bool unattended = false;  ///< nobody is there: no hints, no recovery of lost work, no copies for it
 };
 
 /// The editor apart from its window: document, services, panels and dialogs. One frame() call draws all of it with
@@ -108,6 +109,7 @@ class Application : public EditSink {
 
   // application_files.cpp
   void openAtStart();
+  void applyOverrides();
   void startFromTemplate(const std::string& name);
   void open(const std::filesystem::path& file);
   void recoverFrom(const std::filesystem::path& autosave);

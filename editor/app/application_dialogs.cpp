@@ -32,11 +32,11 @@ void Application::setDialogActions() {
 
 void Application::drawDialogs(int width, int height) {
   const LiveState& live = m_live->state();
-  const std::string viewRenderer = live.device ? live.device->api + ", " + live.device->renderer + ", OpenGL " +
-                                                     live.device->version
-                                               : std::string("none yet");
-  m_dialogs.draw({*m_document, m_actions, m_preferences, m_ui, m_dialogActions, m_options.version,
-                  m_gl.versionText(), viewRenderer, m_options.cacheFolder, m_options.threads, device(), width, height});
+  const std::string viewRenderer =
+      live.device ? live.device->api + ", " + live.device->renderer + ", OpenGL " + live.device->version
+                  : std::string("none yet");
+  m_dialogs.draw({*m_document, m_actions, m_preferences, m_ui, m_dialogActions, m_options.version, m_gl.versionText(),
+                  viewRenderer, m_options.cacheFolder, m_options.threads, device(), width, height});
   if (const auto chosen = m_fileDialog.draw()) {
     // The next question may open the dialog again.
     const auto then = std::exchange(m_fileChosen, nullptr);

@@ -46,6 +46,7 @@ void Application::openAtStart() {
     auto opened = openDocument(*m_options.project);
     if (opened.ok()) {
       replaceDocument(std::move(*opened));
+      applyOverrides();
     } else {
       startFromTemplate("meadow");
       m_dialogs.showError("The project cannot be opened", opened.error());
@@ -59,6 +60,13 @@ void Application::openAtStart() {
   } else {
     startFromTemplate("meadow");
   }
+}
+
+void Application::applyOverrides() {
+  if (m_options.overrides.empty()) return;
+  auto changed = project::load(m_document->file(), m_options.overrides);
+  if (!changed.ok()) return m_dialogs.showError("The values of --set cannot be used", changed.error());
+  edit("values of --set", [&](project::Project& p) { p = std::move(*changed); }, {});
 }
 
 void Application::startFromTemplate(const std::string& name) {
@@ -169,6 +177,7 @@ void Application::recoverFrom(const fs::path& autosave) {
 }
 
 void Application::autosave() {
+  if (m_options.unattended) return;
   const auto wrote = m_autosave.update(*m_document, std::chrono::steady_clock::now(), m_preferences.autosaveSeconds);
   if (!wrote.ok()) {
     notice("No copy for recovery could be written: " + wrote.error().text());
@@ -182,7 +191,8 @@ void Application::whenSaved(const std::function<void()>& then) {
   m_document->closeStep();
   if (!m_document->modified()) return then();
   const std::string name = m_document->file().empty() ? "The new project" : m_document->file().filename().string();
-  m_dialogs.askUnsaved(name, [this, then] { save(then); }, then);
+  m_dialogs.askUnsaved(
+      name, [this, then] { save(then); }, then);
 }
 
 void Application::addPlantFrom(const fs::path& mesh) {
@@ -205,9 +215,7 @@ void Application::dropped(const std::vector<fs::path>& files) {
     } else if (extension == ".glb" || extension == ".gltf") {
       addPlantFrom(file);
     } else if (std::find(kPictures.begin(), kPictures.end(), extension) != kPictures.end()) {
-      edit(
-          "soil texture",
-          [&](project::Project& p) { p.patch.soil.texture = project::assetPath(file, p.folder); }, {});
+      edit("soil texture", [&](project::Project& p) { p.patch.soil.texture = project::assetPath(file, p.folder); }, {});
       m_ui.selection = {};
     } else {
       notice("\"" + file.filename().string() + "\" is no project, glTF mesh or image");

@@ -74,8 +74,7 @@ PanelContext Application::context(double seconds) {
   std::vector<std::string> adds;
   for (const Action& action : m_actions.all())
     if (action.id.starts_with("plant.add.")) adds.push_back(action.id);
-  return {*m_document, m_document->snapshot(), *this,         m_ui,
-          m_live->state(), seconds,            theme().scale, std::move(adds)};
+  return {*m_document, m_document->snapshot(), *this, m_ui, m_live->state(), seconds, theme().scale, std::move(adds)};
 }
 
 void Application::drawMenuBar() {
@@ -131,9 +130,9 @@ void Application::toolButton(const char* id) {
 
 void Application::drawToolbar() {
   constexpr std::array<std::array<const char*, 4>, 4> kGroups{{{"file.new", "file.open", "file.save", nullptr},
-                                                                {"edit.undo", "edit.redo", nullptr, nullptr},
-                                                                {"view.frame", "view.sunTool", "view.compare", nullptr},
-                                                                {"file.render", "edit.palette", nullptr, nullptr}}};
+                                                               {"edit.undo", "edit.redo", nullptr, nullptr},
+                                                               {"view.frame", "view.sunTool", "view.compare", nullptr},
+                                                               {"file.render", "edit.palette", nullptr, nullptr}}};
   ImGui::SetCursorPos({px(8.0f), px(6.0f)});
   for (const auto& group : kGroups) {
     for (const char* id : group)
@@ -158,7 +157,8 @@ void Application::drawCompareControls() {
   ImGui::TextDisabled("against");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(px(180.0f));
-  const auto now = std::find_if(kOthers.begin(), kOthers.end(), [&](const auto& o) { return o.first == compare.other; });
+  const auto now =
+      std::find_if(kOthers.begin(), kOthers.end(), [&](const auto& o) { return o.first == compare.other; });
   if (ImGui::BeginCombo("##other", now->second)) {
     for (const auto& [other, label] : kOthers) {
       if (ImGui::Selectable(label, other == compare.other)) compare.other = other;
@@ -186,7 +186,9 @@ void Application::drawPanels(PanelContext& context, int width, int height) {
   const float top = menu + px(kToolbarHeight), status = px(kStatusHeight), gap = px(kSplitter);
   const float room = std::max(h - top - status, 1.0f);
   const auto fit = [&](bool shown, double wanted, float most) {
-    return shown ? std::clamp(px(static_cast<float>(wanted)), std::min(px(kLeastPanel), std::max(most, 0.0f)), std::max(most, 1.0f)) : 0.0f;
+    return shown ? std::clamp(px(static_cast<float>(wanted)), std::min(px(kLeastPanel), std::max(most, 0.0f)),
+                              std::max(most, 1.0f))
+                 : 0.0f;
   };
   Layout& layout = m_layout;
   const float left = fit(m_ui.showOutliner, layout.left, 0.3f * w);
@@ -237,9 +239,9 @@ void Application::drawPanels(PanelContext& context, int width, int height) {
 
 void Application::drawBottom(PanelContext& context) {
   constexpr std::array<std::pair<BottomTab, const char*>, 4> kTabs{{{BottomTab::Curves, "Curves"},
-                                                                     {BottomTab::Lights, "Light directions"},
-                                                                     {BottomTab::Day, "Day"},
-                                                                     {BottomTab::History, "History"}}};
+                                                                    {BottomTab::Lights, "Light directions"},
+                                                                    {BottomTab::Day, "Day"},
+                                                                    {BottomTab::History, "History"}}};
   if (!ImGui::BeginTabBar("##tabs")) return;
   const BottomTab wanted = m_ui.bottomTab;
   for (const auto& [tab, label] : kTabs) {

@@ -17,12 +17,11 @@ namespace {
 
 constexpr const char* kId = "###dialog";
 
-constexpr std::array<const char*, 5> kHints{
-    "Drag in the picture to turn, scroll to come nearer; W A S D walk.",
-    "Choose a plant on the left and drag its height on the right.",
-    "Hold L and drag in the picture: the sun moves, nothing is baked again.",
-    "Open a curve at a plant's values, and bend a blade's outline below.",
-    "Ctrl+P finds every command; Ctrl+Z takes everything back."};
+constexpr std::array<const char*, 5> kHints{"Drag in the picture to turn, scroll to come nearer; W A S D walk.",
+                                            "Choose a plant on the left and drag its height on the right.",
+                                            "Hold L and drag in the picture: the sun moves, nothing is baked again.",
+                                            "Open a curve at a plant's values, and bend a blade's outline below.",
+                                            "Ctrl+P finds every command; Ctrl+Z takes everything back."};
 
 std::string capitalised(std::string text) {
   if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
@@ -80,8 +79,8 @@ bool Dialogs::begin(const char* title, const Input& input, float width, float he
   const float high = height > 0.0f ? std::min(px(height), 0.9f * window.y) : 0.0f;
   ImGui::SetNextWindowSize({std::min(px(width), window.x), high});
   bool keep = true;
-  const bool shown = ImGui::BeginPopupModal(name.c_str(), &keep,
-                                            ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+  const bool shown = ImGui::BeginPopupModal(
+      name.c_str(), &keep, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
   if (!shown && m_kind != Kind::None) m_kind = Kind::None;  // closed by its cross
   if (shown && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)) && !ImGui::IsAnyItemActive()) close();
   return shown;
@@ -264,8 +263,9 @@ void Dialogs::drawAbout(const Input& input) {
 
 void Dialogs::drawMissing(const Input& input) {
   if (!begin("Missing files", input, 620.0f)) return;
-  ImGui::TextWrapped("The project opens, but these files are not where it says. Until they are found, what needs them "
-                     "cannot be baked.");
+  ImGui::TextWrapped(
+      "The project opens, but these files are not where it says. Until they are found, what needs them "
+      "cannot be baked.");
   for (std::size_t i = 0; i < m_missingFile.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
     ImGui::Separator();

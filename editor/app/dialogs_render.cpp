@@ -57,7 +57,8 @@ void Dialogs::drawRender(const Input& input) {
   if (ImGui::BeginCombo("##view", camera ? "The camera as it stands" : views[m_render.view].name.c_str())) {
     if (ImGui::Selectable("The camera as it stands", camera)) m_render.fromCamera = true;
     for (std::size_t i = 0; i < views.size(); ++i) {
-      if (!ImGui::Selectable((views[i].name + "##" + std::to_string(i)).c_str(), !camera && m_render.view == i)) continue;
+      if (!ImGui::Selectable((views[i].name + "##" + std::to_string(i)).c_str(), !camera && m_render.view == i))
+        continue;
       m_render.fromCamera = false;
       m_render.view = i;
     }

@@ -73,8 +73,13 @@ void Dialogs::drawRecovery(const Input& input) {
 void Dialogs::drawPreferences(const Input& input) {
   if (!begin("Preferences", input, 480.0f)) return;
   Preferences& preferences = input.preferences;
-  constexpr std::array<std::pair<double, const char*>, 7> kScales{
-      {{0.0, "From the screen"}, {0.75, "75 %"}, {1.0, "100 %"}, {1.25, "125 %"}, {1.5, "150 %"}, {2.0, "200 %"}, {3.0, "300 %"}}};
+  constexpr std::array<std::pair<double, const char*>, 7> kScales{{{0.0, "From the screen"},
+                                                                   {0.75, "75 %"},
+                                                                   {1.0, "100 %"},
+                                                                   {1.25, "125 %"},
+                                                                   {1.5, "150 %"},
+                                                                   {2.0, "200 %"},
+                                                                   {3.0, "300 %"}}};
   const auto scale = std::find_if(kScales.begin(), kScales.end(),
                                   [&](const auto& s) { return std::abs(s.first - preferences.uiScale) < 0.01; });
   labelled("Scale", "Size of text and panels, for high-density screens");

@@ -133,9 +133,8 @@ void LiveLink::update(const Document& document, const UiState& ui, int width, in
   if (!m_state.ground || width < 1 || height < 1) return;
   if (m_inspecting && !m_inspection) return;
   const bool moved = ui.inputActive || seconds - ui.lastMotion < kSettleSeconds;
-  Wanted wanted{document.snapshot(), m_state.ground, ui.camera, width,         height,
-                ui.mode,             ui.compare,     moved,     m_otherGround,
-                m_inspection};
+  Wanted wanted{document.snapshot(), m_state.ground, ui.camera,     width,       height, ui.mode,
+                ui.compare,          moved,          m_otherGround, m_inspection};
   if (m_wanted == wanted) return;
   m_settleAt = moved ? std::optional(seconds + kSettleSeconds) : std::nullopt;
   requestPicture(wanted);

@@ -16,8 +16,8 @@
 
 namespace sward::editor {
 
-/// Ties the document to the services: asks for bakes, pictures and thumbnails as it changes, and keeps the textures that
-/// show their results. Belongs to the UI thread and its OpenGL context.
+/// Ties the document to the services: asks for bakes, pictures and thumbnails as it changes, and keeps the textures
+/// that show their results. Belongs to the UI thread and its OpenGL context.
 class LiveLink {
  public:
   struct Options {

@@ -9,10 +9,10 @@ namespace {
 
 /// GLFW's numbers of the keys that have names (glfw3.h); letters, digits and punctuation are their ASCII codes.
 constexpr std::array<std::pair<std::string_view, int>, 24> kNamedKeys{{
-    {"Space", 32}, {"Esc", 256},  {"Enter", 257}, {"Tab", 258},  {"Backspace", 259}, {"Ins", 260},
-    {"Del", 261},  {"Right", 262}, {"Left", 263}, {"Down", 264}, {"Up", 265},        {"Home", 268},
-    {"End", 269},  {"F1", 290},   {"F2", 291},    {"F3", 292},   {"F4", 293},        {"F5", 294},
-    {"F6", 295},   {"F8", 297},   {"F9", 298},    {"F10", 299},  {"F11", 300},       {"F12", 301},
+    {"Space", 32}, {"Esc", 256},   {"Enter", 257}, {"Tab", 258},  {"Backspace", 259}, {"Ins", 260},
+    {"Del", 261},  {"Right", 262}, {"Left", 263},  {"Down", 264}, {"Up", 265},        {"Home", 268},
+    {"End", 269},  {"F1", 290},    {"F2", 291},    {"F3", 292},   {"F4", 293},        {"F5", 294},
+    {"F6", 295},   {"F8", 297},    {"F9", 298},    {"F10", 299},  {"F11", 300},       {"F12", 301},
 }};
 
 }  // namespace

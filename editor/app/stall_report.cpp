@@ -72,6 +72,7 @@ Result<StallMeasurement> measureStalls(const ApplicationOptions& options, double
   out.frames = times.size();
   out.histogram = application.stalls().whileBaking();
   if (times.empty()) return out;
+  out.leastMs = *std::min_element(times.begin(), times.end());
   out.worstMs = *std::max_element(times.begin(), times.end());
   std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());
   out.medianMs = times[times.size() / 2];

@@ -11,9 +11,9 @@ namespace sward::editor {
 /// What the interface's thread was kept from while something baked.
 struct StallMeasurement {
   std::size_t frames = 0;
-  double medianMs = 0.0, worstMs = 0.0;
+  double leastMs = 0.0, medianMs = 0.0, worstMs = 0.0;
   std::array<std::size_t, StallMeter::kEndsMs.size() + 1> histogram{};
-  int pictures = 0;          ///< that changed on screen during the drag
+  int pictures = 0;  ///< that changed on screen during the drag
   double dragSeconds = 0.0;
 };
 

@@ -96,8 +96,8 @@ void installCallbacks(GLFWwindow* window, Events& events) {
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int modifiers) {
     eventsOf(w).any = true;
     if (action != GLFW_PRESS) return;
-    eventsOf(w).keys.push_back({key, (modifiers & GLFW_MOD_CONTROL) != 0, (modifiers & GLFW_MOD_SHIFT) != 0,
-                                (modifiers & GLFW_MOD_ALT) != 0});
+    eventsOf(w).keys.push_back(
+        {key, (modifiers & GLFW_MOD_CONTROL) != 0, (modifiers & GLFW_MOD_SHIFT) != 0, (modifiers & GLFW_MOD_ALT) != 0});
   });
   glfwSetCharCallback(window, [](GLFWwindow* w, unsigned) { eventsOf(w).any = true; });
   glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int) { eventsOf(w).any = true; });

@@ -26,23 +26,28 @@ Result<int> runEdit(Program& program, const EditRequest& request) {
 }  // namespace
 
 void addEditCommand(CLI::App& app, Program& program) {
-  CLI::App* command = addCommand(app, program, "edit", "Author a grassland in a window, live",
-                                 "Without a project it opens the sample meadow. Edits are baked while you work; nothing\n"
-                                 "is written but what you save (and a copy for recovery after a crash).\n\n"
-                                 "Examples:\n"
-                                 "  sward edit meadow.sward\n"
-                                 "  sward edit --device osmesa");
+  CLI::App* command =
+      addCommand(app, program, "edit", "Author a grassland in a window, live",
+                 "Without a project it opens the sample meadow. Edits are baked while you work; nothing\n"
+                 "is written but what you save (and a copy for recovery after a crash).\n\n"
+                 "Examples:\n"
+                 "  sward edit meadow.sward\n"
+                 "  sward edit --device osmesa");
   const auto request = std::make_shared<EditRequest>();
   command->add_option("PROJECT", request->project, "The project, a .sward file");
   command
-      ->add_option("--device", request->device, "OpenGL that draws the viewport: auto, egl or osmesa [the preferences']")
+      ->add_option("--device", request->device,
+                   "OpenGL that draws the viewport: auto, egl or osmesa [the preferences']")
       ->type_name("D");
   command
       ->add_option("--item-log", request->itemLog,
                    "Write the names and places of all items of the window to this file, for tests")
       ->type_name("FILE")
       ->group("For tests");
-  command->callback([&program, request] { program.run = [&program, request] { return runEdit(program, *request); }; });
+  // What runs when no command is given, too.
+  const auto run = [&program, request] { return runEdit(program, *request); };
+  program.run = run;
+  command->callback([&program, run] { program.run = run; });
 }
 
 }  // namespace sward::editor

@@ -14,6 +14,8 @@ constexpr const char* kFooter =
     "Lengths are metres, angles degrees (azimuth clockwise from north, elevation up from the\n"
     "horizon), colours linear RGB.\n\n"
     "Examples:\n"
+    "  sward                                     the editor, on a sample\n"
+    "  sward edit field.sward\n"
     "  sward render projects/meadow.sward -o meadow.png\n"
     "  sward render projects/meadow.sward -o evening.png --sun 285,12\n"
     "  sward new field.sward --template meadow --grass my_grass.glb\n\n"
@@ -67,10 +69,6 @@ int runProgram(int argc, char** argv, Interrupts& interrupts) {
   } catch (const CLI::ParseError& problem) {
     if (problem.get_exit_code() == 0) return app.exit(problem);  // --help and --version
     return wrongCommand(app, problem, argc, argv);
-  }
-  if (!program.run) {
-    std::cerr << app.help() << "\nGive a command; `sward render PROJECT -o FILE` draws a picture.\n";
-    return kWrongInput;
   }
   const Result<int> code = program.run();
   if (interrupts.requested()) return reportError(program, Error::cancelled());

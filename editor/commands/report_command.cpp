@@ -1,5 +1,6 @@
 #include "commands.h"
 
+#include "app/stall_report.h"
 #include "gpu/context.h"
 #include "report/report.h"
 #include "report/speed.h"
@@ -32,6 +33,33 @@ std::string rowText(const report::Row& row) {
   return text;
 }
 
+/// The row edit_stall: what the window's thread is kept from while an author drags a blade's height and bakes run.
+Result<report::Row> stallRow(const Program& program, const ReportRequest& request) {
+  constexpr double kLimitMs = 100.0, kSeconds = 6.0, kQuickSeconds = 3.0;
+  ApplicationOptions options;
+  options.project = request.project;
+  options.overrides = program.common.overrides;
+  options.cacheFolder = cacheFolder(program);
+  options.unattended = true;
+  SWARD_ASSIGN(const StallMeasurement measured, measureStalls(options, request.quick ? kQuickSeconds : kSeconds));
+  report::Row row;
+  row.method = "edit_stall";
+  row.timeMs = report::TimeMs{measured.medianMs, measured.leastMs, measured.worstMs, static_cast<int>(measured.frames)};
+  if (measured.worstMs > 0.0) row.ratio = kLimitMs / measured.worstMs;
+  row.against = "a stall of 100 ms, over the longest frame";
+  Json ends = Json::array(), counts = Json::array();
+  for (const double end : StallMeter::kEndsMs) ends.push_back(end);
+  for (const std::size_t count : measured.histogram) counts.push_back(count);
+  row.numbersAndNames = {{"width", "1280"},
+                         {"height", "800"},
+                         {"histogram_ends_ms", ends.dump()},
+                         {"histogram_frames", counts.dump()},
+                         {"drag_s", Json(measured.dragSeconds).dump()},
+                         {"pictures_during_drag", Json(measured.pictures).dump()}};
+  row.notes = "frames of the interface while a height is dragged and baked; drawn through EGL without a window";
+  return row;
+}
+
 Result<int> runReport(Program& program, const ReportRequest& request) {
   for (const std::string& section : request.sections) {
     if (section != "speed") {
@@ -52,6 +80,8 @@ Result<int> runReport(Program& program, const ReportRequest& request) {
     const report::SpeedInput input{project, *context, cacheFolder(program), request.quick};
     SWARD_ASSIGN(rows, report::speedRows(input, bar.job()));
   }
+  SWARD_ASSIGN(report::Row stalls, stallRow(program, request));
+  rows.push_back(std::move(stalls));
   for (const report::Row& row : rows) say(program, rowText(row));
   const report::ReportHead head{SWARD_VERSION, request.project, context->info()};
   const std::vector<report::Section> sections{{"speed", rows}};

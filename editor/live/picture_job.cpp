@@ -90,7 +90,9 @@ struct PictureJob::Impl {
     JobContext job;
     job.stop = stop;
     job.threads = request.threads;
-    job.onProgress = [this](const std::string& stage, double fraction) { tell("Baking: " + stage, kBakeShare * fraction); };
+    job.onProgress = [this](const std::string& stage, double fraction) {
+      tell("Baking: " + stage, kBakeShare * fraction);
+    };
     return baker.ground(*request.project, job);
   }
 

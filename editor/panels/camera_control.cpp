@@ -9,7 +9,7 @@
 namespace sward::editor {
 namespace {
 
-constexpr double kSteepest = 1.565;         ///< radians from the level; short of the vertical, so that "up" stays up
+constexpr double kSteepest = 1.565;  ///< radians from the level; short of the vertical, so that "up" stays up
 constexpr double kLeastDistanceM = 0.05;
 constexpr double kMostDistanceM = 2.0e4;
 constexpr double kHalfTurn = std::numbers::pi;

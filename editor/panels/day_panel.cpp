@@ -34,7 +34,8 @@ void DayPanel::draw(PanelContext& context) {
     timeline(context);
   } else {
     ImGui::Dummy({0.0f, px(8.0f)});
-    ImGui::TextDisabled("The sun stands where its angles say. By date and place, its day can be scrubbed and played here.");
+    ImGui::TextDisabled(
+        "The sun stands where its angles say. By date and place, its day can be scrubbed and played here.");
     if (ImGui::Button("Use date and place"))
       context.edits.edit("sun by date and place", [](project::Project& p) { p.sun.byMoment = true; });
     logItem("day.useMoment");
@@ -61,9 +62,10 @@ void DayPanel::controls(PanelContext& context) {
   ImGui::SameLine();
   std::array<char, 160> text{};
   const int minutes = static_cast<int>(std::lround(moment.hourUtc * 60.0));
-  std::snprintf(text.data(), text.size(), "%04d-%02d-%02d   %02d:%02d UTC   sun %.1f\xC2\xB0 high   %.2f\xC2\xB0 N %.2f\xC2\xB0 E",
-                moment.year, moment.month, moment.day, minutes / 60 % 24, minutes % 60,
-                elevationAt(moment, moment.hourUtc), moment.latitudeDeg, moment.longitudeDeg);
+  std::snprintf(text.data(), text.size(),
+                "%04d-%02d-%02d   %02d:%02d UTC   sun %.1f\xC2\xB0 high   %.2f\xC2\xB0 N %.2f\xC2\xB0 E", moment.year,
+                moment.month, moment.day, minutes / 60 % 24, minutes % 60, elevationAt(moment, moment.hourUtc),
+                moment.latitudeDeg, moment.longitudeDeg);
   ImGui::TextDisabled("%s", text.data());
   if (!playing) return;
   const double elapsed = std::clamp(context.seconds - m_lastSeconds, 0.0, 0.1);

@@ -107,7 +107,8 @@ void InspectorPanel::draw(PanelContext& context) {
       plant(context, selection.index);
       break;
     case Selection::Kind::Lights:
-      fields(context, "lights", [](project::Project& p) -> auto& { return p.lights; });
+      fields(
+          context, "lights", [](project::Project & p) -> auto& { return p.lights; });
       ImGui::Dummy({0.0f, px(6.0f)});
       if (ImGui::Button("Show the hemisphere")) {
         context.ui.bottomTab = BottomTab::Lights;
@@ -116,7 +117,8 @@ void InspectorPanel::draw(PanelContext& context) {
       logItem("inspector.showLights");
       break;
     case Selection::Kind::Tiles:
-      fields(context, "tiles", [](project::Project& p) -> auto& { return p.tiles; });
+      fields(
+          context, "tiles", [](project::Project & p) -> auto& { return p.tiles; });
       break;
     case Selection::Kind::SunSky:
       sunAndSky(context);
@@ -125,15 +127,19 @@ void InspectorPanel::draw(PanelContext& context) {
       view(context, selection.index);
       break;
     case Selection::Kind::Sampling:
-      fields(context, "sampling", [](project::Project& p) -> auto& { return p.sampling; });
+      fields(
+          context, "sampling", [](project::Project & p) -> auto& { return p.sampling; });
       break;
     case Selection::Kind::Fit:
-      fields(context, "fit", [](project::Project& p) -> auto& { return p.fit; });
+      fields(
+          context, "fit", [](project::Project & p) -> auto& { return p.fit; });
       break;
     case Selection::Kind::Render:
-      fields(context, "render", [](project::Project& p) -> auto& { return p.render; });
+      fields(
+          context, "render", [](project::Project & p) -> auto& { return p.render; });
       heading("Size of the picture");
-      fields(context, "output", [](project::Project& p) -> auto& { return p.output; });
+      fields(
+          context, "output", [](project::Project & p) -> auto& { return p.output; });
       break;
   }
   ImGui::EndChild();
@@ -161,16 +167,19 @@ void InspectorPanel::head(PanelContext& context) {
 
 void InspectorPanel::plant(PanelContext& context, std::size_t index) {
   const std::string path = "patch.plants[" + std::to_string(index) + "]";
-  fields(context, path, [index](project::Project& p) -> auto& { return p.patch.plants[index]; });
+  fields(
+      context, path, [index](project::Project & p) -> auto& { return p.patch.plants[index]; });
 }
 
 void InspectorPanel::ground(PanelContext& context) {
-  fields(context, "patch", [](project::Project& p) -> auto& { return p.patch; });
+  fields(
+      context, "patch", [](project::Project & p) -> auto& { return p.patch; });
 }
 
 void InspectorPanel::view(PanelContext& context, std::size_t index) {
   const std::string path = "views[" + std::to_string(index) + "]";
-  fields(context, path, [index](project::Project& p) -> auto& { return p.views[index]; });
+  fields(
+      context, path, [index](project::Project & p) -> auto& { return p.views[index]; });
   // A view that the camera stands in takes the camera along.
   if (context.ui.boundView == index && index < context.document.project().views.size())
     context.ui.camera = context.document.project().views[index];
@@ -191,9 +200,11 @@ void InspectorPanel::view(PanelContext& context, std::size_t index) {
 
 void InspectorPanel::sunAndSky(PanelContext& context) {
   heading("Sun");
-  fields(context, "sun", [](project::Project& p) -> auto& { return p.sun; });
+  fields(
+      context, "sun", [](project::Project & p) -> auto& { return p.sun; });
   heading("Sky");
-  fields(context, "sky", [](project::Project& p) -> auto& { return p.sky; });
+  fields(
+      context, "sky", [](project::Project & p) -> auto& { return p.sky; });
 }
 
 }  // namespace sward::editor

@@ -87,7 +87,9 @@ void LightPanel::palette(PanelContext& context, float side) {
   const bool list = context.project->lights.pattern == scene::LightPattern::List;
   std::vector<scene::SunAngles> lights = list ? context.project->lights.directions : anglesOf(m_directions);
   const scene::SunAngles sun = sunAnglesOf(*context.project);
-  const HemisphereValues* values = m_ground == Ground::Leverage ? &m_leverage : m_ground == Ground::Gap ? &m_gap : nullptr;
+  const HemisphereValues* values = m_ground == Ground::Leverage ? &m_leverage
+                                   : m_ground == Ground::Gap    ? &m_gap
+                                                                : nullptr;
   const LightEvents events =
       m_palette.draw("palette", lights, list, side, SkyAngles{sun.azimuthDeg, sun.elevationDeg}, values);
   if (events.changed) {
@@ -138,7 +140,8 @@ void LightPanel::figures(PanelContext&) {
   line("Lights", std::to_string(m_directions.size()), "Directions that are traced; time and memory grow with them",
        colours.text);
   line("Rank", std::to_string(q.rank()) + " of 6",
-       "How many of the six functions of the light's direction the set tells apart", q.rank() < 6 ? colours.error : colours.text);
+       "How many of the six functions of the light's direction the set tells apart",
+       q.rank() < 6 ? colours.error : colours.text);
   const bool bad = !(q.condition() < 100.0);
   line("Condition", std::isfinite(q.condition()) ? number("%.1f", q.condition()) : std::string("infinite"),
        "Largest over smallest singular value: how much the fit amplifies noise. 5 to 10 is good",

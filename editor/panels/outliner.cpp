@@ -65,10 +65,10 @@ bool OutlinerPanel::row(PanelContext& context, const char* icon, const std::stri
                         const std::string& hint) {
   const bool chosen = context.ui.selection.kind == selection.kind && context.ui.selection.index == selection.index;
   const ImVec2 start = ImGui::GetCursorPos();
-  const std::string id = "##" + label + std::to_string(static_cast<int>(selection.kind)) + "." +
-                         std::to_string(selection.index);
-  const bool clicked = ImGui::Selectable(id.c_str(), chosen, ImGuiSelectableFlags_AllowDoubleClick,
-                                         {0.0f, px(kRowHeight)});
+  const std::string id =
+      "##" + label + std::to_string(static_cast<int>(selection.kind)) + "." + std::to_string(selection.index);
+  const bool clicked =
+      ImGui::Selectable(id.c_str(), chosen, ImGuiSelectableFlags_AllowDoubleClick, {0.0f, px(kRowHeight)});
   logItem("outliner:", label);
   if (clicked) context.ui.selection = selection;
   const float middle = start.y + 0.5f * (px(kRowHeight) - ImGui::GetTextLineHeight());
@@ -112,7 +112,8 @@ void OutlinerPanel::plantRow(PanelContext& context, std::size_t index, double sh
   const ImVec2 screen = ImGui::GetCursorScreenPos();
   ImGui::PushID(static_cast<int>(index));
   ImGui::SetItemAllowOverlap();
-  const bool clicked = ImGui::Selectable("##plant", chosen, ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_AllowItemOverlap,
+  const bool clicked = ImGui::Selectable("##plant", chosen,
+                                         ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_AllowItemOverlap,
                                          {0.0f, px(kPlantHeight)});
   logItem("outliner:plant:", plant.name);
   if (clicked) context.ui.selection = selectPlant(*context.project, index);

@@ -59,8 +59,8 @@ struct PanelContext {
   EditSink& edits;
   UiState& ui;
   const LiveState& live;
-  double seconds = 0.0;  ///< of the clock that frames are drawn by
-  float scale = 1.0f;    ///< pixels a design pixel
+  double seconds = 0.0;                      ///< of the clock that frames are drawn by
+  float scale = 1.0f;                        ///< pixels a design pixel
   std::vector<std::string> addPlantActions;  ///< ids of the actions that add a preset
 };
 

@@ -85,9 +85,10 @@ void drawStatusBar(PanelContext& context, const std::string& stalls) {
   ImGui::TextDisabled("%s", right.c_str());
   logItem("status.numbers");
   if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("Time of the last sample, pictures a second, memory in use, and what draws the viewport.\n\n"
-                      "Frames of the interface while baking:\n%s",
-                      stalls.c_str());
+    ImGui::SetTooltip(
+        "Time of the last sample, pictures a second, memory in use, and what draws the viewport.\n\n"
+        "Frames of the interface while baking:\n%s",
+        stalls.c_str());
   }
 }
 

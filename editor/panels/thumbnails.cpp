@@ -4,8 +4,7 @@
 
 namespace sward::editor {
 
-void drawThumbnail(const PanelContext& context, std::size_t index, ImVec2 corner, ImVec2 end,
-                   const char* icon) {
+void drawThumbnail(const PanelContext& context, std::size_t index, ImVec2 corner, ImVec2 end, const char* icon) {
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const Palette& colours = theme().colours;
   draw->AddRectFilled(corner, end, mixed(colours.field, colours.text, 0.22f), px(4.0f));
@@ -19,7 +18,8 @@ void drawThumbnail(const PanelContext& context, std::size_t index, ImVec2 corner
     return;
   }
   const ImVec2 size = ImGui::CalcTextSize(icon);
-  draw->AddText({0.5f * (corner.x + end.x - size.x), 0.5f * (corner.y + end.y - size.y)}, theme().colours.textDim, icon);
+  draw->AddText({0.5f * (corner.x + end.x - size.x), 0.5f * (corner.y + end.y - size.y)}, theme().colours.textDim,
+                icon);
 }
 
 }  // namespace sward::editor

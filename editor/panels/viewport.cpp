@@ -89,8 +89,8 @@ void ViewportPanel::header(PanelContext& context) {
   if (ui.mode.quantity == render::ViewQuantity::Coefficient) {
     ImGui::SameLine();
     ImGui::SetNextItemWidth(90.0f * scale);
-    ImGui::SliderInt("##coefficient", &ui.mode.coefficient, 0,
-                     context.project->fit.basis == lpt::Basis::Ptm ? 5 : 9, "b%d", ImGuiSliderFlags_AlwaysClamp);
+    ImGui::SliderInt("##coefficient", &ui.mode.coefficient, 0, context.project->fit.basis == lpt::Basis::Ptm ? 5 : 9,
+                     "b%d", ImGuiSliderFlags_AlwaysClamp);
   }
   ImGui::SameLine();
   ImGui::SetNextItemWidth(110.0f * scale);
@@ -110,9 +110,9 @@ void ViewportPanel::picture(PanelContext& context) {
   m_width = static_cast<int>(size.x);
   m_height = static_cast<int>(size.y);
   ImGui::SetCursorScreenPos(origin);
-  ImGui::InvisibleButton("##picture", size,
-                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
-                             ImGuiButtonFlags_MouseButtonMiddle);
+  ImGui::InvisibleButton(
+      "##picture", size,
+      ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
   logItem("viewport.picture");
   const bool hovered = ImGui::IsItemHovered();
   ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -213,7 +213,8 @@ void ViewportPanel::overlays(PanelContext& context) {
     const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, room);
     const ImVec2 end = at + ImVec2(size.x + 2.0f * pad.x + dotWidth, size.y + 2.0f * pad.y);
     draw->AddRectFilled(at, end, IM_COL32(20, 22, 20, 190), 10.0f * scale);
-    draw->AddCircleFilled(at + ImVec2(pad.x + 3.0f * scale, pad.y + 0.5f * ImGui::GetTextLineHeight()), 4.0f * scale, dot);
+    draw->AddCircleFilled(at + ImVec2(pad.x + 3.0f * scale, pad.y + 0.5f * ImGui::GetTextLineHeight()), 4.0f * scale,
+                          dot);
     draw->AddText(ImGui::GetFont(), ImGui::GetFontSize(), at + ImVec2(pad.x + dotWidth, pad.y),
                   IM_COL32(235, 238, 232, 255), text.c_str(), nullptr, room);
   };

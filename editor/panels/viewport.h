@@ -6,8 +6,8 @@ namespace sward::editor {
 
 /// The picture in the middle, and what the mouse and keys do to the camera and the sun over it. Draws itself into the
 /// current ImGui window's whole content.
-///   left drag orbit (with Alt: look around), middle or Shift+left drag pan, wheel dolly, right drag look and fly (WASD,
-///   Q and E down and up, Shift faster); with L held or the sun tool, a left drag moves the sun.
+///   left drag orbit (with Alt: look around), middle or Shift+left drag pan, wheel dolly, right drag look and fly
+///   (WASD, Q and E down and up, Shift faster); with L held or the sun tool, a left drag moves the sun.
 class ViewportPanel {
  public:
   void draw(PanelContext& context);

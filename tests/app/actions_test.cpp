@@ -23,7 +23,8 @@ TEST(Shortcut, TextAndParsingAreInverse) {
     EXPECT_FALSE(shortcut.empty()) << text;
     EXPECT_EQ(shortcut.text(), text);
   }
-  for (const char* text : {"", "Ctrl+", "Ctrl+Nothing", "Shift+Ctrl+S"}) EXPECT_TRUE(Shortcut::parse(text).empty()) << text;
+  for (const char* text : {"", "Ctrl+", "Ctrl+Nothing", "Shift+Ctrl+S"})
+    EXPECT_TRUE(Shortcut::parse(text).empty()) << text;
   EXPECT_EQ(Shortcut::parse("f"), Shortcut::parse("F"));
 }
 

@@ -66,7 +66,8 @@ class EditorWindow : public testing::Test {
 
   void start(std::vector<std::string> arguments, std::map<std::string, std::string> environment = {}) {
     m_session.reset();
-    m_session = std::make_unique<EditorSession>(*m_server, m_home / "user", std::move(arguments), std::move(environment));
+    m_session =
+        std::make_unique<EditorSession>(*m_server, m_home / "user", std::move(arguments), std::move(environment));
     ASSERT_TRUE(m_session->waitForItem("viewport.picture")) << m_session->errors();
     m_session->focus();
     if (m_session->item("dialog:hintsDone")) m_session->click("dialog:hintsDone");
@@ -188,6 +189,7 @@ TEST_F(EditorWindow, ANewProjectFromATemplateIsSavedUnderAName) {
   m_session->key("ctrl+a");
   m_session->type((m_home / "my lawn").string());
   m_session->key("Return");
+  ASSERT_TRUE(m_session->click("action:files.accept"));
   ASSERT_TRUE(m_session->waitUntil([&] { return fs::exists(m_home / "my lawn.sward"); }, 10.0));
   EXPECT_TRUE(project::load(m_home / "my lawn.sward").ok());
 }
@@ -299,9 +301,8 @@ TEST_F(EditorWindow, AFailedSaveSaysSoAndLosesNothing) {
 }
 
 TEST(EditorStart, WithoutADisplayItSaysSo) {
-  const std::string command =
-      std::string("env -u DISPLAY -u WAYLAND_DISPLAY ") + SWARD_BINARY + " edit > /dev/null 2> " +
-      (fs::temp_directory_path() / "sward-no-display.txt").string();
+  const std::string command = std::string("env -u DISPLAY -u WAYLAND_DISPLAY ") + SWARD_BINARY +
+                              " edit > /dev/null 2> " + (fs::temp_directory_path() / "sward-no-display.txt").string();
   const int status = std::system(command.c_str());
   EXPECT_EQ(WEXITSTATUS(status), 1);
   const std::string text = base::readTextFile(fs::temp_directory_path() / "sward-no-display.txt").value();

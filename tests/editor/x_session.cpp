@@ -88,7 +88,8 @@ image::Image XServer::screenshot() const {
   // XWD, version 7: a header of 32-bit numbers in big-endian order, a colour map, then rows of 4-byte pixels (BGRX).
   const auto file = base::readFile(m_folder / "Xvfb_screen0").value();
   const auto field = [&](std::size_t index) { return bigEndian(file.data() + 4 * index); };
-  const std::size_t headerSize = field(0), width = field(4), height = field(5), rowBytes = field(12), colours = field(19);
+  const std::size_t headerSize = field(0), width = field(4), height = field(5), rowBytes = field(12),
+                    colours = field(19);
   const std::size_t first = headerSize + colours * 12;
   image::Image out(static_cast<int>(width), static_cast<int>(height), 3);
   for (std::size_t y = 0; y < height; ++y) {

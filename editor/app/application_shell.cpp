@@ -244,15 +244,16 @@ void Application::drawBottom(PanelContext& context) {
                                                                     {BottomTab::History, "History"}}};
   if (!ImGui::BeginTabBar("##tabs")) return;
   const BottomTab wanted = m_ui.bottomTab;
+  const bool asked = wanted != m_shownTab;
   for (const auto& [tab, label] : kTabs) {
     // A tab that code asked for is selected once; after that the user's clicks say.
-    const bool select = wanted == tab && m_shownTab != tab;
-    if (ImGui::BeginTabItem(label, nullptr, select ? ImGuiTabItemFlags_SetSelected : 0)) {
-      if (wanted == m_shownTab || select) m_ui.bottomTab = m_shownTab = tab;
-      if (m_shownTab == tab) drawTab(context, tab);
-      ImGui::EndTabItem();
-    }
+    const bool select = asked && wanted == tab;
+    const bool shown = ImGui::BeginTabItem(label, nullptr, select ? ImGuiTabItemFlags_SetSelected : 0);
     logItem("tab:", label);
+    if (!shown) continue;
+    if (!asked || select) m_ui.bottomTab = m_shownTab = tab;
+    drawTab(context, tab);
+    ImGui::EndTabItem();
   }
   ImGui::EndTabBar();
 }

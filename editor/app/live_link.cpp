@@ -74,7 +74,8 @@ void LiveLink::takeGrounds() {
   m_groundChanged = false;
   while (auto baked = m_bakes.tryPop()) {
     m_state.ground = std::move(baked->ground);
-    m_inspection = std::move(baked->inspection);
+    m_inspection = baked->inspection;
+    m_state.inspection = std::move(baked->inspection);
     m_state.quality = baked->quality;
     m_state.groundSeconds = baked->secondsSinceRequest;
     m_groundChanged = true;

@@ -12,7 +12,7 @@ namespace sward::editor {
 namespace {
 
 constexpr const char* kPopup = "##palette";
-constexpr float kWidth = 520.0f, kListHeight = 320.0f;
+constexpr float kWidth = 520.0f, kListHeight = 320.0f, kRowHeight = 26.0f;
 
 bool pressed(ImGuiKey key) {
   return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key));
@@ -24,10 +24,10 @@ const Action* CommandPalette::row(const Action& action, bool selected, float wid
   const bool enabled = action.isEnabled();
   const ImVec2 start = ImGui::GetCursorPos();
   const bool clicked = ImGui::Selectable(("##" + action.id).c_str(), selected,
-                                         enabled ? 0 : ImGuiSelectableFlags_Disabled, {0.0f, px(26.0f)});
+                                         enabled ? 0 : ImGuiSelectableFlags_Disabled, {0.0f, px(kRowHeight)});
   logItem("palette:", action.id);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", action.help.c_str());
-  const float textTop = start.y + 0.5f * (px(26.0f) - ImGui::GetTextLineHeight());
+  const float textTop = start.y + 0.5f * (px(kRowHeight) - ImGui::GetTextLineHeight());
   if (!enabled) ImGui::PushStyleColor(ImGuiCol_Text, theme().colours.textDim);
   ImGui::SetCursorPos({start.x + px(8.0f), textTop});
   ImGui::TextUnformatted(action.icon);
@@ -41,7 +41,7 @@ const Action* CommandPalette::row(const Action& action, bool selected, float wid
     ImGui::TextDisabled("%s", keys.c_str());
   }
   if (!enabled) ImGui::PopStyleColor();
-  ImGui::SetCursorPos({start.x, start.y + px(26.0f)});
+  ImGui::SetCursorPos({start.x, start.y + px(kRowHeight)});
   return clicked && enabled ? &action : nullptr;
 }
 
@@ -70,7 +70,8 @@ void CommandPalette::draw(const ActionTable& actions, int width, int height) {
   if (pressed(ImGuiKey_UpArrow)) --m_selected;
   m_selected = std::clamp(m_selected, 0, std::max(last, 0));
   const Action* chosen = nullptr;
-  const float listHeight = std::min(px(kListHeight), 0.6f * static_cast<float>(height));
+  const float rows = px(kRowHeight) * static_cast<float>(std::max<std::size_t>(found.size(), 1)) + px(6.0f);
+  const float listHeight = std::min({rows, px(kListHeight), 0.6f * static_cast<float>(height)});
   ImGui::BeginChild("##found", {0.0f, listHeight});
   for (int i = 0; i <= last; ++i) {
     const Action* clicked = row(*found[static_cast<std::size_t>(i)], i == m_selected, ImGui::GetContentRegionAvail().x);
@@ -82,7 +83,7 @@ void CommandPalette::draw(const ActionTable& actions, int width, int height) {
   const bool enter = pressed(ImGuiKey_Enter) || pressed(ImGuiKey_KeyPadEnter);
   if (enter && last >= 0 && found[static_cast<std::size_t>(m_selected)]->isEnabled())
     chosen = found[static_cast<std::size_t>(m_selected)];
-  if (chosen != nullptr) ImGui::CloseCurrentPopup();
+  if (chosen != nullptr || pressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
   if (chosen != nullptr) chosen->run();
 }

@@ -89,6 +89,9 @@ void DayPanel::timeline(PanelContext& context) {
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->PushClipRect(origin, {origin.x + size.x, origin.y + size.y}, true);
   draw->AddRectFilled(origin, {origin.x + size.x, origin.y + base}, colours.plot, px(4.0f));
+  // Neighbouring pieces would show a seam each if their edges were smoothed.
+  const ImDrawListFlags flags = draw->Flags;
+  draw->Flags &= ~ImDrawListFlags_AntiAliasedFill;
   ImVec2 last{x(0.0), y(elevationAt(moment, 0.0))};
   for (int i = 1; i <= kSteps; ++i) {
     const double hour = kHours * i / kSteps;
@@ -99,6 +102,7 @@ void DayPanel::timeline(PanelContext& context) {
     draw->AddLine(last, point, elevation > 0.0 ? colours.sun : colours.textDim, px(1.5f));
     last = point;
   }
+  draw->Flags = flags;
   draw->AddLine({origin.x, y(0.0)}, {origin.x + size.x, y(0.0)}, colours.plotGridMajor);
   for (int hour = 0; hour <= 24; hour += size.x > px(600.0f) ? 1 : 3) {
     draw->AddLine({x(hour), origin.y}, {x(hour), origin.y + base}, colours.plotGrid);

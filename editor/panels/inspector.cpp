@@ -4,9 +4,10 @@
 #include "panels/view_edits.h"
 #include "widgets/icons.h"
 #include "widgets/item_log.h"
+#include "widgets/sky_dome.h"
 #include "widgets/theme.h"
 
-#include "project/limits.h"
+#include "scene/sun_sky.h"
 
 #include <algorithm>
 #include <memory>
@@ -199,6 +200,36 @@ void InspectorPanel::view(PanelContext& context, std::size_t index) {
 }
 
 void InspectorPanel::sunAndSky(PanelContext& context) {
+  const scene::SunOptions& sun = context.project->sun;
+  const scene::SunAngles angles = sunAnglesOf(*context.project);
+  SkyAngles shown{angles.azimuthDeg, angles.elevationDeg};
+  std::vector<SkyAngles> path;
+  SkyDomeOptions options;
+  options.enabled = !sun.byMoment;
+  if (sun.byMoment) {
+    scene::SunMoment moment = sun.moment;
+    for (int quarter = 0; quarter < 96; ++quarter) {
+      moment.hourUtc = 0.25 * quarter;
+      const scene::SunAngles at = scene::sunAngles(moment);
+      path.push_back({at.azimuthDeg, at.elevationDeg});
+    }
+    options.path = path;
+  }
+  const float side = std::min(ImGui::GetContentRegionAvail().x - px(24.0f), px(230.0f));
+  const EditState dragged = skyDome("sun", shown, std::max(side, px(60.0f)), options);
+  if (dragged.changed) {
+    context.edits.edit(
+        "sun",
+        [&](project::Project& p) {
+          p.sun.angles = {shown.azimuthDeg, shown.elevationDeg};
+        },
+        "sun.angles");
+    m_editing = true;
+  }
+  if (dragged.finished) {
+    context.edits.closeStep();
+    m_editing = false;
+  }
   heading("Sun");
   fields(
       context, "sun", [](project::Project & p) -> auto& { return p.sun; });

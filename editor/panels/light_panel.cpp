@@ -20,6 +20,7 @@ namespace sward::editor {
 namespace {
 
 constexpr int kGrid = 48;
+constexpr float kLegendHeight = 46.0f;  ///< under the hemisphere, design pixels
 /// Leverage above 1 is extrapolation; what lies far above looks the same.
 constexpr double kMostLeverage = 1.5;
 constexpr double kMostGapDeg = 45.0;
@@ -73,7 +74,7 @@ void LightPanel::measure(const scene::LightOptions& options) {
 
 void LightPanel::draw(PanelContext& context) {
   measure(context.project->lights);
-  const float side = std::max(std::min(ImGui::GetContentRegionAvail().y - px(8.0f), px(520.0f)), px(60.0f));
+  const float side = std::max(std::min(ImGui::GetContentRegionAvail().y - px(kLegendHeight), px(520.0f)), px(60.0f));
   palette(context, side);
   ImGui::SameLine(0.0f, px(24.0f));
   ImGui::BeginChild("##lightSide");

@@ -38,10 +38,11 @@ struct PanelPicture {
 /// What the services have to show this frame.
 struct LiveState {
   BakeStatus bake;
-  std::shared_ptr<const bake::GroundBake> ground;  ///< newest; null until the first is ready
-  Quality quality = Quality::Coarse;               ///< of `ground`
-  double groundSeconds = 0.0;                      ///< from the edit to `ground`
-  bool stale = false;                              ///< `ground` is of an older project than the document's
+  std::shared_ptr<const bake::GroundBake> ground;      ///< newest; null until the first is ready
+  std::shared_ptr<const bake::Inspection> inspection;  ///< of `ground`, while a view mode needs one
+  Quality quality = Quality::Coarse;                   ///< of `ground`
+  double groundSeconds = 0.0;                          ///< from the edit to `ground`
+  bool stale = false;                                  ///< `ground` is of an older project than the document's
   PanelPicture picture;
   int samples = 0;
   bool pictureFinal = false;

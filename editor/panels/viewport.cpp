@@ -1,6 +1,7 @@
 #include "panels/viewport.h"
 
 #include "panels/camera_control.h"
+#include "panels/legend.h"
 #include "panels/view_edits.h"
 #include "widgets/icons.h"
 #include "widgets/item_log.h"
@@ -91,6 +92,16 @@ void ViewportPanel::header(PanelContext& context) {
     ImGui::SetNextItemWidth(90.0f * scale);
     ImGui::SliderInt("##coefficient", &ui.mode.coefficient, 0, context.project->fit.basis == lpt::Basis::Ptm ? 5 : 9,
                      "b%d", ImGuiSliderFlags_AlwaysClamp);
+  }
+  const bool response =
+      ui.mode.quantity == render::ViewQuantity::Coefficient || ui.mode.quantity == render::ViewQuantity::Luminance;
+  if (response) {
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(120.0f * scale);
+    int channel = ui.mode.channel == render::ResponseChannel::Transmitted ? 1 : 0;
+    if (ImGui::Combo("##channel", &channel, "Reflected\0Transmitted\0"))
+      ui.mode.channel = channel == 1 ? render::ResponseChannel::Transmitted : render::ResponseChannel::Reflected;
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("What leaves reflect, or what they let through");
   }
   ImGui::SameLine();
   ImGui::SetNextItemWidth(110.0f * scale);
@@ -231,6 +242,10 @@ void ViewportPanel::overlays(PanelContext& context) {
     std::string text = std::string("Updating, ") + kNames[quality];
     if (live.bake.running) text += " " + std::to_string(static_cast<int>(live.bake.fraction * 100.0)) + " %";
     pill(corner + ImVec2(12.0f * scale, 12.0f * scale), text, IM_COL32(230, 180, 70, 255));
+  }
+  if (live.ground && !context.ui.mode.plain()) {
+    const render::Legend legend = render::legendOf(context.ui.mode, *live.ground, live.inspection.get());
+    drawLegend(legend, corner + ImVec2(12.0f * scale, static_cast<float>(m_height) - 12.0f * scale));
   }
   const CompareState& compare = context.ui.compare;
   if (compare.on && compare.show == Comparison::Show::Split) {

@@ -10,11 +10,24 @@
 
 namespace sward::editor {
 
+namespace {
+
+/// On Linux a priority belongs to a thread, and a new thread inherits its maker's (setpriority(2), "Linux/C library
+/// differences").
+void setNiceOfThisThread(int nice) {
+  static_cast<void>(::setpriority(PRIO_PROCESS, static_cast<id_t>(::syscall(SYS_gettid)), nice));
+}
+
+}  // namespace
+
 void lowerPriorityOfThisThread() {
-  // On Linux a priority belongs to a thread, and a new thread inherits its maker's (setpriority(2), "Linux/C library
-  // differences").
   constexpr int kLowest = 19;
-  static_cast<void>(::setpriority(PRIO_PROCESS, static_cast<id_t>(::syscall(SYS_gettid)), kLowest));
+  setNiceOfThisThread(kLowest);
+}
+
+void yieldPriorityOfThisThread() {
+  constexpr int kYielding = 5;
+  setNiceOfThisThread(kYielding);
 }
 
 void startSchedulerThreads() {

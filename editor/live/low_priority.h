@@ -6,6 +6,9 @@ namespace sward::editor {
 /// come first; threads that it starts later inherit it. Silently does nothing where the system refuses.
 void lowerPriorityOfThisThread();
 
+/// The same by half: below the window, above the bakes (nice 5). For the viewport's pictures.
+void yieldPriorityOfThisThread();
+
 /// Starts the threads of the task scheduler from the calling thread, so that they inherit its priority.
 void startSchedulerThreads();
 

@@ -1,5 +1,6 @@
 #include "live/view_service.h"
 
+#include "live/low_priority.h"
 #include "live/view_painter.h"
 
 #include <chrono>
@@ -44,6 +45,7 @@ struct ViewService::Impl {
   }
 
   void run(std::stop_token stop) {
+    yieldPriorityOfThisThread();
     ViewPainter painter(options.device);
     while (auto request = next(stop)) {
       Result<void> drawn = drawGuarded(painter, *request, stop);

@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 namespace sward::editor {
-
 namespace {
 
 /// On Linux a priority belongs to a thread, and a new thread inherits its maker's (setpriority(2), "Linux/C library

@@ -71,8 +71,9 @@ class Application : public EditSink {
   void shutDown(bool interrupted);
   bool wantsToQuit() const { return m_quit; }
   std::string title() const;
-  /// The theme or scale changed: fonts are to be loaded anew before the next frame.
-  bool takeStyleChange() { return std::exchange(m_styleChanged, false); }
+  /// Between frames: applies theme and scale where they changed, and loads the fonts anew. `screenScale` is what the
+  /// screen asks for where the preferences leave it open.
+  void refreshStyle(float screenScale);
   Preferences& preferences() { return m_preferences; }
   const StallMeter& stalls() const { return m_stalls; }
   const LiveLink& live() const { return *m_live; }

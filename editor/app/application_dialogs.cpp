@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include <imgui.h>
+#include <imgui_impl_opengl3.h>
 
 namespace sward::editor {
 
@@ -42,6 +43,15 @@ void Application::drawDialogs(int width, int height) {
     const auto then = std::exchange(m_fileChosen, nullptr);
     if (then) then(*chosen);
   }
+}
+
+void Application::refreshStyle(float screenScale) {
+  if (!std::exchange(m_styleChanged, false)) return;
+  const float scale = m_preferences.uiScale > 0.0 ? static_cast<float>(m_preferences.uiScale) : screenScale;
+  applyTheme(m_preferences.theme == ThemeChoice::Light ? ThemeKind::Light : ThemeKind::Dark, scale);
+  for (const std::string& missing : loadFonts(*ImGui::GetIO().Fonts, theme().scale)) notice(missing);
+  ImGui_ImplOpenGL3_DestroyFontsTexture();
+  ImGui_ImplOpenGL3_CreateFontsTexture();
 }
 
 void Application::openDocumentation() {

@@ -94,7 +94,6 @@ void Application::showDocument(Document document) {
     m_ui.camera = scene::View{};
   }
   m_ui.activeCurve.clear();
-  m_ui.selectedLight.reset();
   if (!m_document->file().empty()) m_preferences.addRecent(m_document->file());
   m_watch.watchProject(m_document->file(), m_document->snapshot());
   showMissingAssets();

@@ -58,20 +58,11 @@ struct OffscreenEditor::Impl {
     return {};
   }
 
-  void updateStyle() {
-    if (!application->takeStyleChange()) return;
-    const bool light = application->preferences().theme == ThemeChoice::Light;
-    applyTheme(light ? ThemeKind::Light : ThemeKind::Dark, scale);
-    for (const std::string& missing : loadFonts(*ImGui::GetIO().Fonts, theme().scale)) application->notice(missing);
-    ImGui_ImplOpenGL3_DestroyFontsTexture();
-    ImGui_ImplOpenGL3_CreateFontsTexture();
-  }
-
   double frame() {
     const double start = secondsNow();
     (void)context->makeCurrent();
     application->poll(start);
-    updateStyle();
+    application->refreshStyle(scale);
     ImGui::GetIO().DeltaTime = last > 0.0 ? static_cast<float>(std::max(start - last, 1e-3)) : 0.016f;
     last = start;
     framebuffer.bind();

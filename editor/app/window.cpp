@@ -187,20 +187,14 @@ class WindowLoop {
     return any;
   }
 
-  void updateStyle() {
-    if (!m_application.takeStyleChange()) return;
+  float screenScale() const {
     float scaleX = 1.0f, scaleY = 1.0f;
     glfwGetWindowContentScale(m_window, &scaleX, &scaleY);
-    const Preferences& preferences = m_application.preferences();
-    const float scale = preferences.uiScale > 0.0 ? static_cast<float>(preferences.uiScale) : std::max(scaleX, scaleY);
-    applyTheme(preferences.theme == ThemeChoice::Light ? ThemeKind::Light : ThemeKind::Dark, scale);
-    for (const std::string& missing : loadFonts(*ImGui::GetIO().Fonts, theme().scale)) m_application.notice(missing);
-    ImGui_ImplOpenGL3_DestroyFontsTexture();
-    ImGui_ImplOpenGL3_CreateFontsTexture();
+    return std::max(scaleX, scaleY);
   }
 
   void drawFrame(double woke) {
-    updateStyle();
+    m_application.refreshStyle(screenScale());
     const std::string title = m_application.title();
     if (title != m_title) glfwSetWindowTitle(m_window, title.c_str());
     m_title = title;

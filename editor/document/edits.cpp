@@ -93,19 +93,6 @@ std::string uniqueName(const std::string& name, const std::vector<std::string>& 
   return wanted + " " + std::to_string(number);
 }
 
-std::vector<Plant> plantPresets() {
-  std::vector<Plant> presets;
-  for (const std::string& name : project::templateNames()) {
-    const Result<Project> start = project::fromTemplate(name);
-    if (!start.ok()) continue;
-    for (const Plant& plant : start->patch.plants) {
-      const auto same = [&](const Plant& p) { return p.name == plant.name; };
-      if (std::none_of(presets.begin(), presets.end(), same)) presets.push_back(plant);
-    }
-  }
-  return presets;
-}
-
 std::optional<std::size_t> addPlant(Project& project, Plant plant, std::size_t after) {
   std::vector<Plant>& plants = project.patch.plants;
   if (!(plant.share > 0.0)) {

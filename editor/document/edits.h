@@ -19,9 +19,6 @@ inline constexpr std::size_t kAtEnd = std::numeric_limits<std::size_t>::max();
 /// ends are cut off; an empty name becomes `fallback`.
 std::string uniqueName(const std::string& name, const std::vector<std::string>& taken, const std::string& fallback);
 
-/// Plants to start from: those of the templates, each name once.
-std::vector<project::Plant> plantPresets();
-
 /// The new plant's index; nothing when the list is full. A name that is taken gets a number. A share of 0 becomes the
 /// mean of the others' (1 when there are none), so that the plant is seen.
 std::optional<std::size_t> addPlant(project::Project& project, project::Plant plant, std::size_t after = kAtEnd);

@@ -37,11 +37,9 @@ struct UiState {
   CompareState compare;
   BottomTab bottomTab = BottomTab::Curves;
   std::string activeCurve;  ///< path of the curve that the curve panel edits
-  std::string fieldFilter;
   bool showOutliner = true, showInspector = true, showBottom = true;
   bool inputActive = false;  ///< a drag in the viewport or a field: pictures answer at half resolution
   double lastMotion = -1e9;  ///< seconds; of the camera
-  std::optional<int> selectedLight;
   bool playingDay = false;
 };
 

@@ -1,6 +1,7 @@
 #include "document/edits.h"
 
 #include "document/selection.h"
+#include "project/presets.h"
 #include "project/limits.h"
 
 #include <limits>
@@ -52,13 +53,11 @@ TEST(UniqueName, CountsOn) {
   EXPECT_EQ(uniqueName("a 99999999999999999999", {"a 99999999999999999999"}, "x"), "a 99999999999999999999 2");
 }
 
-TEST(PlantEdits, PresetsHaveDifferentNamesAndAreValid) {
-  const auto presets = plantPresets();
-  EXPECT_GE(presets.size(), 8u);
-  const auto all = names(presets);
-  EXPECT_EQ(std::set<std::string>(all.begin(), all.end()).size(), all.size());
+TEST(PlantEdits, EveryPresetCanBeAdded) {
   Project project = project::fromTemplate("empty").value();
-  for (const Plant& preset : presets) ASSERT_TRUE(addPlant(project, preset));
+  for (const project::PlantPreset& preset : project::plantPresets()) ASSERT_TRUE(addPlant(project, preset.plant));
+  const auto all = names(project.patch.plants);
+  EXPECT_EQ(std::set<std::string>(all.begin(), all.end()).size(), all.size());
   EXPECT_TRUE(project::requireValid(project).ok());
 }
 

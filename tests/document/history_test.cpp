@@ -2,6 +2,7 @@
 
 #include "document/document.h"
 #include "document/edits.h"
+#include "project/presets.h"
 #include "project/assets.h"
 
 #include "project/fields.h"
@@ -60,8 +61,9 @@ struct NamedEdit {
 const NamedEdit kEdits[] = {
     {"add plant",
      [](Project& p, Random& r) {
-       const auto presets = plantPresets();
-       if (p.patch.plants.size() < 8) addPlant(p, presets[pick(r, presets.size())], pick(r, p.patch.plants.size() + 1));
+       const auto& presets = project::plantPresets();
+       const project::Plant& plant = presets[pick(r, presets.size())].plant;
+       if (p.patch.plants.size() < 8) addPlant(p, plant, pick(r, p.patch.plants.size() + 1));
      }},
     {"duplicate plant",
      [](Project& p, Random& r) {

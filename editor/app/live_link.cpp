@@ -8,7 +8,7 @@ namespace {
 
 /// A picture answers at half resolution until nothing moved for so long.
 constexpr double kSettleSeconds = 0.25;
-constexpr std::size_t kPictureTimes = 20;
+constexpr double kRateSeconds = 2.0;  ///< over which pictures a second are counted
 constexpr int kThumbnailPixels = 96;
 
 double now() {
@@ -99,7 +99,7 @@ bool LiveLink::takePicture() {
   m_state.drawMs = picture->drawMs;
   ++m_pictures;
   m_pictureTimes.push_back(now());
-  if (m_pictureTimes.size() > kPictureTimes) m_pictureTimes.pop_front();
+  while (m_pictureTimes.back() - m_pictureTimes.front() > kRateSeconds) m_pictureTimes.pop_front();
   const double span = m_pictureTimes.back() - m_pictureTimes.front();
   m_state.framesPerSecond = span > 0.0 ? static_cast<double>(m_pictureTimes.size() - 1) / span : 0.0;
   return true;

@@ -1,6 +1,7 @@
 #include "panels/curve_panel.h"
 
 #include "widgets/item_log.h"
+#include "widgets/parts.h"
 #include "widgets/theme.h"
 
 #include <algorithm>
@@ -60,7 +61,7 @@ std::size_t CurvePanel::choose(PanelContext& context, const std::vector<CurveEnt
 void CurvePanel::draw(PanelContext& context) {
   std::vector<CurveEntry> curves = curvesToShow(context);
   if (curves.empty()) {
-    ImGui::TextDisabled("Choose a grass in the outliner: its blades' outline, colour and heights are curves.");
+    hint("Choose a grass in the outliner: its blades' outline, colour and heights are curves.");
     return;
   }
   const std::size_t active = choose(context, curves);

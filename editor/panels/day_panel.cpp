@@ -2,6 +2,7 @@
 
 #include "widgets/icons.h"
 #include "widgets/item_log.h"
+#include "widgets/parts.h"
 #include "widgets/theme.h"
 
 #include "scene/sun_sky.h"
@@ -34,8 +35,7 @@ void DayPanel::draw(PanelContext& context) {
     timeline(context);
   } else {
     ImGui::Dummy({0.0f, px(8.0f)});
-    ImGui::TextDisabled(
-        "The sun stands where its angles say. By date and place, its day can be scrubbed and played here.");
+    hint("The sun stands where its angles say. By date and place, its day can be scrubbed and played here.");
     if (ImGui::Button("Use date and place"))
       context.edits.edit("sun by date and place", [](project::Project& p) { p.sun.byMoment = true; });
     logItem("day.useMoment");

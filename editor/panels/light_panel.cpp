@@ -4,6 +4,7 @@
 #include "panels/view_edits.h"
 #include "widgets/icons.h"
 #include "widgets/item_log.h"
+#include "widgets/parts.h"
 #include "widgets/theme.h"
 
 #include "project/words.h"
@@ -122,9 +123,9 @@ void LightPanel::patterns(PanelContext& context) {
     context.ui.selection = {Selection::Kind::Lights, 0, {}};
   }
   if (now != scene::LightPattern::List) {
-    ImGui::TextDisabled("The pattern's values are on the right. Make it a list to move, add and remove lights.");
+    hint("The pattern's values are on the right. Make it a list to move, add and remove lights.");
   } else {
-    ImGui::TextDisabled("Drag to move, double-click to add, Delete to remove.");
+    hint("Drag to move, double-click to add, Delete to remove.");
   }
   ImGui::TextDisabled("Colours");
   constexpr std::array<std::pair<Ground, const char*>, 3> kGrounds{

@@ -76,7 +76,8 @@ void drawStatusBar(PanelContext& context, const std::string& stalls) {
   logItem("status.bake");
 
   const std::string renderer = live.device ? live.device->api + ", " + live.device->renderer : "no renderer";
-  const std::string right = format("%.0f ms", live.drawMs) + format("  |  %.1f frames/s", live.framesPerSecond) +
+  const std::string right = format("%.0f ms", live.drawMs) +
+                            (live.framesPerSecond > 0.0 ? format("  |  %.1f frames/s", live.framesPerSecond) : "") +
                             format("  |  %.0f MiB", static_cast<double>(residentBytes()) / (1024.0 * 1024.0)) +
                             "  |  " + renderer;
   const float width = ImGui::CalcTextSize(right.c_str()).x;

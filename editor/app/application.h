@@ -133,6 +133,7 @@ class Application : public EditSink {
 
   // application_shell.cpp
   PanelContext context(double seconds);
+  void refresh(PanelContext& context);
   void drawMenuBar();
   void drawRecentMenu();
   void drawToolbar();

@@ -77,6 +77,12 @@ PanelContext Application::context(double seconds) {
   return {*m_document, m_document->snapshot(), *this, m_ui, m_live->state(), seconds, theme().scale, std::move(adds)};
 }
 
+/// What one panel did is what the next one shows: a plant that was added may be selected already.
+void Application::refresh(PanelContext& context) {
+  context.project = m_document->snapshot();
+  m_ui.selection = followSelection(m_ui.selection, *context.project);
+}
+
 void Application::drawMenuBar() {
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(px(8.0f), px(6.0f)));
   const bool shown = ImGui::BeginMainMenuBar();
@@ -214,21 +220,25 @@ void Application::drawPanels(PanelContext& context, int width, int height) {
 
   if (m_ui.showOutliner) {
     beginRegion("##outliner", {0.0f, top, left, room}, colours.panel, {0.0f, px(4.0f)}, true);
+    refresh(context);
     m_outliner.draw(context);
     ImGui::End();
   }
   if (m_ui.showInspector) {
     beginRegion("##inspector", {w - right, top, right, room}, colours.panel, {px(12.0f), px(10.0f)}, false);
+    refresh(context);
     m_inspector.draw(context);
     ImGui::End();
   }
   beginRegion("##viewport", {left + gapLeft, top, middle, std::max(room - bottom - gapBottom, 1.0f)}, colours.panel,
               {0.0f, 0.0f}, false);
+  refresh(context);
   m_viewport.draw(context);
   ImGui::End();
   if (m_ui.showBottom) {
     beginRegion("##bottomPanel", {left + gapLeft, top + room - bottom, middle, bottom}, colours.panel,
                 {px(10.0f), px(6.0f)}, false);
+    refresh(context);
     drawBottom(context);
     ImGui::End();
   }

@@ -194,6 +194,27 @@ TEST_F(EditorWindow, ANewProjectFromATemplateIsSavedUnderAName) {
   EXPECT_TRUE(project::load(m_home / "my lawn.sward").ok());
 }
 
+TEST_F(EditorWindow, FromNothingToAPlantedProject) {
+  ASSERT_TRUE(project::save(project::fromTemplate("empty").value(), m_file).ok());
+  openSmall();
+  ASSERT_TRUE(m_session->click("outliner.addPlant"));
+  ASSERT_TRUE(m_session->click("addPlant:Buttercup"));
+  EXPECT_EQ(m_session->number("position"), 1) << m_session->errors();
+  ASSERT_TRUE(m_session->click("outliner.addPlant"));
+  ASSERT_TRUE(m_session->click("addPlant:Meadow grass"));
+  // The new plant is selected, and its values are shown.
+  EXPECT_TRUE(m_session->waitForItem("field:patch.plants[1].grass.heightM"));
+  ASSERT_TRUE(m_session->click("action:edit.undo"));
+  ASSERT_TRUE(m_session->click("action:edit.undo"));
+  EXPECT_EQ(m_session->number("position"), 0);
+  ASSERT_TRUE(m_session->click("action:edit.redo"));
+  EXPECT_EQ(m_session->number("position"), 1);
+  m_session->key("ctrl+s");
+  ASSERT_TRUE(m_session->waitUntil([&] { return m_session->state("modified") == "false"; }, 10.0));
+  ASSERT_EQ(saved().patch.plants.size(), 1u);
+  EXPECT_EQ(saved().patch.plants[0].kind, project::PlantKind::Flower);
+}
+
 TEST_F(EditorWindow, UnsavedChangesAreAskedAbout) {
   openSmall();
   ASSERT_TRUE(m_session->drag("field:patch.plants[0].grass.heightM", 40.0, 0.0));

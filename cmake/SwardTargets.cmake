@@ -45,9 +45,9 @@ function(sward_editor_library name)
 endfunction()
 
 # sward_test(NAME [DEPENDS folders of core ...] [LIBRARIES ...])
-# Builds test_NAME from every .cpp of the current folder and registers each of its GoogleTest cases with CTest.
+# SERIAL: no other test runs beside it. Builds test_NAME from every .cpp of the current folder and registers each of its GoogleTest cases with CTest.
 function(sward_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "DEPENDS;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "SERIAL" "TIMEOUT" "DEPENDS;LIBRARIES" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 600)
   endif()
@@ -60,5 +60,5 @@ function(sward_test name)
     SWARD_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     SWARD_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared"
     SWARD_BINARY="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/sward")
-  gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+  gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${ARG_SERIAL})
 endfunction()

@@ -186,6 +186,10 @@ bool EditorSession::waitUntil(const std::function<bool()>& done, double seconds)
   return true;
 }
 
+bool EditorSession::reaches(const std::string& name, const std::string& value, double seconds) {
+  return waitUntil([&] { return state(name) == value; }, seconds);
+}
+
 bool EditorSession::waitForItem(const std::string& name, double seconds) {
   return waitUntil(
       [&] {
@@ -211,7 +215,7 @@ bool EditorSession::click(const std::string& name, int button, int times) {
   if (!waitForItem(name)) return false;
   const Item found = *item(name);
   moveTo(found.x + 0.5 * found.width, found.y + 0.5 * found.height);
-  xdotool({"click", "--repeat", std::to_string(times), "--delay", "60", std::to_string(button)});
+  xdotool({"click", "--repeat", std::to_string(times), "--delay", "120", std::to_string(button)});
   std::this_thread::sleep_for(kStepPause * 6);
   return true;
 }

@@ -62,6 +62,8 @@ class EditorSession {
   std::int64_t number(const std::string& name);
   /// Polls until `done` holds; false after `seconds`.
   bool waitUntil(const std::function<bool()>& done, double seconds = 60.0);
+  /// Waits until a value of the state is `value`: what an event causes shows some frames after it.
+  bool reaches(const std::string& name, const std::string& value, double seconds = 20.0);
   bool waitForItem(const std::string& name, double seconds = 30.0);
 
   void moveTo(double x, double y);

@@ -4,10 +4,15 @@
 
 namespace sward::lpt {
 
-/// Which functions a texel's light response is made of.
+/// What a texel's light response is kept as. Renderers relight the first three; the others are relit on the processor
+/// for one sun, and drawn as a Constant of that light.
 enum class Basis : std::uint8_t {
-  Lpt,  ///< ten coefficients a pixseries: a biquadratic in (lx, ly, u)
-  Ptm   ///< six coefficients a layer texel: a biquadratic in (lx, ly)
+  Lpt,        ///< ten coefficients a pixseries: a biquadratic in (lx, ly, u)
+  Ptm,        ///< six coefficients a layer texel: a biquadratic in (lx, ly)
+  Constant,   ///< one value a layer texel: the same under every light
+  Clustered,  ///< the layers of a pixseries in FitOptions::clusters groups, ten coefficients each
+  Hsh,        ///< hemispherical harmonics a layer texel (Gautron et al. 2004)
+  Marched  ///< unshadowed response times a transmittance marched through voxels (science.md section 1); needs no lights
 };
 
 /// What a fit minimises (LPT, without `paper`), with W = sum_i w_i over a column's texels, K lights, and f written in
@@ -18,6 +23,7 @@ enum class Basis : std::uint8_t {
 /// result does not change when all its weights are scaled. Rows left out (a sample that is not finite) leave W K too.
 struct FitOptions {
   Basis basis = Basis::Lpt;
+  int clusters = 2;           ///< 2 or 4, of Basis::Clustered
   bool paper = false;         ///< no ridge, weights delta alone, not centred: the paper's own fit, for comparison
   double layerRidge = 0.02;   ///< >= 0, on the coefficients that contain v, relative to the summed weight of the rows
   double lightRidge = 0.002;  ///< >= 0, on those of the light alone; the constant is free

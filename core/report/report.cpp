@@ -70,10 +70,10 @@ Json rowJson(const Row& row) {
 std::string reportJson(const ReportHead& head, const std::vector<Section>& sections) {
   Json json = {{"sward", head.version}, {"machine", machineJson(head.device)}, {"project", head.project}};
   json["sections"] = Json::object();
-  for (const auto& [name, rows] : sections) {
+  for (const Section& section : sections) {
     Json list = Json::array();
-    for (const Row& row : rows) list.push_back(rowJson(row));
-    json["sections"][name] = {{"rows", list}};
+    for (const Row& row : section.rows) list.push_back(rowJson(row));
+    json["sections"][section.name] = {{"rows", list}};
   }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

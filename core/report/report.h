@@ -2,7 +2,7 @@
 
 #include "base/result.h"
 #include "gpu/context.h"
-#include "report/row.h"
+#include "report/section.h"
 
 #include <filesystem>
 #include <string>
@@ -17,9 +17,6 @@ struct ReportHead {
   std::string project;  ///< its name and file
   gpu::DeviceInfo device;
 };
-
-/// A section's name and its rows.
-using Section = std::pair<std::string, std::vector<Row>>;
 
 /// report.json as design.md describes it, with the machine's processor, cores, memory and OpenGL renderer. A value that
 /// was not measured is absent. Parameters of a row that are not JSON are an internal error.

@@ -84,7 +84,9 @@ Result<int> runReport(Program& program, const ReportRequest& request) {
   rows.push_back(std::move(stalls));
   for (const report::Row& row : rows) say(program, rowText(row));
   const report::ReportHead head{SWARD_VERSION, request.project, context->info()};
-  const std::vector<report::Section> sections{{"speed", rows}};
+  std::vector<report::Section> sections(1);
+  sections[0].name = "speed";
+  sections[0].rows = rows;
   std::filesystem::path file;
   {
     const auto writing = program.interrupts.writing();

@@ -30,7 +30,7 @@ void compositeBlades(Walk walk, Level level, bool axisX, float weight, float ran
     if (planes.t >= walk.tEnd) break;
     Site site =
         bladeSite(level, axisX, planes.place, alongAt(along, planes.t), along.row + along.rowSlope * planes.t);
-    composite(fetchSite(site, along.start, u_slabs, level.area, level.mean), weight, abs(planes.step) * float(u_slabs));
+    composite(fetchSite(site, along.start, v_slabs, level.area, level.mean), weight, abs(planes.step) * float(v_slabs));
     planes.t += planes.stride;
     planes.place += planes.step;
   }
@@ -43,7 +43,7 @@ void main() {
   Walk walk = startWalk(d);
   float facing = max(-d.z, 0.0);
   float slices = facing;
-  float blades = max(1.0 - facing / u_cosTheta0, 0.0);
+  float blades = max(1.0 - facing / v_cosTheta0, 0.0);
 #if !SWARD_PAPER_WEIGHTS
   float both = max(slices + blades, 1e-6);
   slices /= both;
@@ -53,10 +53,10 @@ void main() {
   Level layered = sliceLevel(walk.footprint, random, levelJitter);
   vec2 place = slicePlace(walk, layered);
   Planes planes = slicePlanes(walk, fourthRandom(random));
-  for (int i = 0; i < u_sliceLayers; ++i) {
+  for (int i = 0; i < v_sliceLayers; ++i) {
     if (planes.t >= walk.tEnd) break;
     Site site = sliceSite(layered, int(planes.place), place + walk.slope * planes.t);
-    composite(fetchSite(site, layered.start, u_sliceLayers, layered.area, layered.mean), slices, 1.0);
+    composite(fetchSite(site, layered.start, v_sliceLayers, layered.area, layered.mean), slices, 1.0);
     planes.t += planes.stride;
     planes.place += planes.step;
   }

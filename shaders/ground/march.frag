@@ -35,7 +35,7 @@ void marchSlices(Walk walk, Level level, float tEnd, float random) {
   for (int i = 0; i < kMaxSteps; ++i) {
     if (planes.t >= tEnd || g_transmittance <= kTransmittanceEnd) break;
     Site site = sliceSite(level, int(planes.place), place + walk.slope * planes.t);
-    uint stored = fetchSite(site, level.start, u_sliceLayers, level.area, level.mean);
+    uint stored = fetchSite(site, level.start, v_sliceLayers, level.area, level.mean);
     composite(stored, planes.depthUnit);
     planes.t += planes.stride;
     planes.place += planes.step;
@@ -50,7 +50,7 @@ void marchBlades(Walk walk, Level level, bool axisX, float tEnd, float random) {
   for (int i = 0; i < kMaxSteps; ++i) {
     if (planes.t >= tEnd || g_transmittance <= kTransmittanceEnd) break;
     Site site = bladeSite(level, axisX, planes.place, alongAt(blades, planes.t), blades.row + blades.rowSlope * planes.t);
-    uint stored = fetchSite(site, blades.start, u_slabs, level.area, level.mean);
+    uint stored = fetchSite(site, blades.start, v_slabs, level.area, level.mean);
     composite(stored, planes.depthUnit);
     planes.t += planes.stride;
     planes.place += planes.step;

@@ -5,27 +5,8 @@
 uniform usamplerBuffer t_relit;
 // tile | brightness << 8 | hue << 16, row by row from the south-west, the map's other side repeated as a border
 uniform usamplerBuffer t_map;
-uniform vec2 u_mapSize;
-uniform vec2 u_mapInverse;      // 1 / u_mapSize
-uniform vec2 u_mapOffset;       // map cell of local cell (0, 0)
-uniform float u_mapBorder;      // cells
-uniform float u_mapStride;      // cells in a row, with borders
-uniform int u_tiles;
-uniform float u_pixelAngle;     // width of a pixel at unit distance
 
-uniform int u_sliceSize;        // texels along a tile
-uniform int u_sliceMaxLevel;
-uniform int u_slicePlanes;      // images x layers
-uniform int u_sliceLayers;      // with the soil, the last
-uniform float u_slicesPerM;     // texels a metre
 
-uniform ivec2 u_bladeSize;
-uniform int u_bladeMaxLevel;
-uniform int u_bladeVerticalLevels;
-uniform int u_bladePlanes;
-uniform int u_slabs;            // of a tile
-uniform float u_bladesPerM;     // texels a metre
-uniform uint u_bladeBase[4];    // where the sets seen from +x, -x, +y, -y start
 
 // A mip level of a set, chosen once a ray: the distance changes too little within the shell to change it.
 struct Level {
@@ -52,33 +33,33 @@ int mipLevel(float footprintTexels, float levelJitter) {
 }
 
 Level sliceLevel(float footprintM, vec3 random, float levelJitter) {
-  int wanted = mipLevel(footprintM * u_slicesPerM, levelJitter);
-  int level = min(wanted, u_sliceMaxLevel);
+  int wanted = mipLevel(footprintM * v_slicesPerM, levelJitter);
+  int level = min(wanted, v_sliceMaxLevel);
   Level l;
-  l.width = u_sliceSize >> level;
+  l.width = v_sliceSize >> level;
   l.area = l.width * l.width;
-  l.start = levelOffset(level, u_sliceSize * u_sliceSize, u_slicePlanes);
-  l.planesPerTile = u_sliceLayers;
+  l.start = levelOffset(level, v_sliceSize * v_sliceSize, v_slicePlanes);
+  l.planesPerTile = v_sliceLayers;
   l.columns = float(l.width);
   l.rows = l.columns;
   l.jitter = (random.xy - 0.5) / l.columns;
-  l.mean = wanted > u_sliceMaxLevel;
+  l.mean = wanted > v_sliceMaxLevel;
   return l;
 }
 
 Level bladeLevel(float footprintM, vec3 random, float levelJitter) {
-  int wanted = mipLevel(footprintM * u_bladesPerM, levelJitter);
-  int level = min(wanted, u_bladeMaxLevel);
-  int height = u_bladeSize.y >> min(level, u_bladeVerticalLevels);
+  int wanted = mipLevel(footprintM * v_bladesPerM, levelJitter);
+  int level = min(wanted, v_bladeMaxLevel);
+  int height = v_bladeSize.y >> min(level, v_bladeVerticalLevels);
   Level l;
-  l.width = u_bladeSize.x >> level;
+  l.width = v_bladeSize.x >> level;
   l.area = l.width * height;
-  l.start = levelOffset(level, u_bladeSize.x * u_bladeSize.y, u_bladePlanes);
-  l.planesPerTile = u_slabs;
+  l.start = levelOffset(level, v_bladeSize.x * v_bladeSize.y, v_bladePlanes);
+  l.planesPerTile = v_slabs;
   l.columns = float(l.width);
   l.rows = float(height);
   l.jitter = vec2((random.x - 0.5) / l.columns, random.y - 0.5);
-  l.mean = wanted > u_bladeMaxLevel;
+  l.mean = wanted > v_bladeMaxLevel;
   return l;
 }
 
@@ -99,7 +80,7 @@ Site bladeSite(Level l, bool axisX, float across, float along, float row) {
   float cellAcross = floor(across);
   Site site;
   site.cell = axisX ? vec2(cellAcross, cellAlong) : vec2(cellAlong, cellAcross);
-  site.plane = int((across - cellAcross) * float(u_slabs));
+  site.plane = int((across - cellAcross) * float(v_slabs));
   site.within = int(min(row, l.rows - 1.0)) * l.width + int((along - cellAlong) * l.columns);
   return site;
 }
@@ -108,17 +89,17 @@ Site bladeSite(Level l, bool axisX, float across, float along, float row) {
 // the border (a ray that leaves even that is opaque, or so distant that any tile will do).
 vec2 mapPlace(vec2 tiles) {
   vec2 cell = floor(tiles);
-  vec2 wrapped = cell + u_mapOffset;
-  wrapped -= u_mapSize * floor((wrapped + 0.5) * u_mapInverse);
-  return tiles - cell + wrapped + u_mapBorder;
+  vec2 wrapped = cell + v_mapOffset;
+  wrapped -= v_mapSize * floor((wrapped + 0.5) * v_mapInverse);
+  return tiles - cell + wrapped + v_mapBorder;
 }
 
-uint mapWord(vec2 cell) { return texelFetch(t_map, int(cell.y * u_mapStride + cell.x)).r; }
+uint mapWord(vec2 cell) { return texelFetch(t_map, int(cell.y * v_mapStride + cell.x)).r; }
 
 // The stored texel at a site; `start` is where its level starts in the buffer.
 uint fetchSite(Site site, int start, int planesPerTile, int area, bool mean) {
   int tile = int(mapWord(site.cell) & 0xffu);
-  tile = mean ? u_tiles : tile;
+  tile = mean ? v_tiles : tile;
   return texelFetch(t_relit, start + (tile * planesPerTile + site.plane) * area + site.within).r;
 }
 

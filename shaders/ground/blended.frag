@@ -28,9 +28,9 @@ void compositeBlades(Walk walk, Level level, bool axisX, float weight, float ran
   Planes planes = along.planes;
   for (int i = 0; i < kMaxBlendedBlades; ++i) {
     if (planes.t >= walk.tEnd) break;
-    Site site =
-        bladeSite(level, axisX, planes.place, alongAt(along, planes.t), along.row + along.rowSlope * planes.t);
-    composite(fetchSite(site, along.start, v_slabs, level.area, level.mean), weight, abs(planes.step) * float(v_slabs));
+    Site site = bladeSite(level, along.start, axisX, planes.place, alongAt(along, planes.t),
+                          along.row + along.rowSlope * planes.t);
+    composite(fetchSite(level, site), weight, abs(planes.step) * float(v_slabs));
     planes.t += planes.stride;
     planes.place += planes.step;
   }
@@ -55,8 +55,8 @@ void main() {
   Planes planes = slicePlanes(walk, fourthRandom(random));
   for (int i = 0; i < v_sliceLayers; ++i) {
     if (planes.t >= walk.tEnd) break;
-    Site site = sliceSite(layered, int(planes.place), place + walk.slope * planes.t);
-    composite(fetchSite(site, layered.start, v_sliceLayers, layered.area, layered.mean), slices, 1.0);
+    Site site = sliceSite(layered, layerStart(layered, int(planes.place)), place + walk.slope * planes.t);
+    composite(fetchSite(layered, site), slices, 1.0);
     planes.t += planes.stride;
     planes.place += planes.step;
   }

@@ -167,8 +167,8 @@ vec3 throughHaze(vec3 radiance, vec3 d, float distanceM, float random) {
 // The picture of a ray that gathered `radiance` (over the relight scale) in the shell and has `left` of its
 // transmittance: soil or sky behind, macro variation, haze, exposure.
 vec4 finishGround(Walk walk, vec3 d, vec3 radiance, float left, Level soilLevel, vec3 random) {
-  Site site = sliceSite(soilLevel, v_sliceLayers - 1, slicePlace(walk, soilLevel) + walk.slope * max(walk.tEnd, 0.0));
-  vec3 soil = storedColour(fetchSite(site, soilLevel.start, v_sliceLayers, soilLevel.area, soilLevel.mean));
+  Site site = sliceSite(soilLevel, layerStart(soilLevel, v_sliceLayers - 1), slicePlace(walk, soilLevel) + walk.slope * max(walk.tEnd, 0.0));
+  vec3 soil = storedColour(fetchSite(soilLevel, site));
 #if SWARD_SKY
   bool soilSeen = walk.slopeZ < 0.0;
 #else

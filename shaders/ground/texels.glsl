@@ -13,18 +13,17 @@ struct Level {
   int start;          // first texel of the level
   int area;           // texels of a plane
   int width;
-  int planesPerTile;
+  int tileArea;       // texels of a tile's planes
   float columns;      // width and height as floats
   float rows;
   vec2 jitter;        // in tiles along a row, and in rows (slices: tiles)
-  bool mean;          // a pixel covers more than a tile: the mean over all tiles stands for every tile
+  int leastTile;      // where a pixel covers more than a tile that of the mean, which stands for every tile; else 0
 };
 
 // A texel of a set before its tile is known.
 struct Site {
   vec2 cell;
-  int plane;   // of the tile
-  int within;  // the plane
+  int texel;  // from the start of the buffer, as if the tile were the first
 };
 
 // floor(log2(texels in the footprint) + a number in [0, 1)), from the exponent of a float.
@@ -39,11 +38,11 @@ Level sliceLevel(float footprintM, vec3 random, float levelJitter) {
   l.width = v_sliceSize >> level;
   l.area = l.width * l.width;
   l.start = levelOffset(level, v_sliceSize * v_sliceSize, v_slicePlanes);
-  l.planesPerTile = v_sliceLayers;
+  l.tileArea = l.area * v_sliceLayers;
   l.columns = float(l.width);
   l.rows = l.columns;
   l.jitter = (random.xy - 0.5) / l.columns;
-  l.mean = wanted > v_sliceMaxLevel;
+  l.leastTile = wanted > v_sliceMaxLevel ? v_tiles : 0;
   return l;
 }
 
@@ -55,33 +54,36 @@ Level bladeLevel(float footprintM, vec3 random, float levelJitter) {
   l.width = v_bladeSize.x >> level;
   l.area = l.width * height;
   l.start = levelOffset(level, v_bladeSize.x * v_bladeSize.y, v_bladePlanes);
-  l.planesPerTile = v_slabs;
+  l.tileArea = l.area * v_slabs;
   l.columns = float(l.width);
   l.rows = float(height);
   l.jitter = vec2((random.x - 0.5) / l.columns, random.y - 0.5);
-  l.mean = wanted > v_bladeMaxLevel;
+  l.leastTile = wanted > v_bladeMaxLevel ? v_tiles : 0;
   return l;
 }
 
-// The slice texel of a layer at a place in tiles, jittered already.
-Site sliceSite(Level l, int layer, vec2 place) {
+// First texel of a slice layer of the first tile.
+int layerStart(Level l, int layer) { return l.start + layer * l.area; }
+
+// The slice texel at a place in tiles, jittered already, of the layer that starts at `start`.
+Site sliceSite(Level l, int start, vec2 place) {
   Site site;
   site.cell = floor(place);
   ivec2 texel = ivec2((place - site.cell) * l.columns);
-  site.plane = layer;
-  site.within = texel.y * l.width + texel.x;
+  site.texel = start + texel.y * l.width + texel.x;
   return site;
 }
 
 // A blade texel: `across` and `along` count tiles along the planes' normal and along the plane, `row` rows from -1/2 up;
-// jittered already. axisX says that the planes are normal to x.
-Site bladeSite(Level l, bool axisX, float across, float along, float row) {
+// jittered already. axisX says that the planes are normal to x, `start` where the level of their set starts.
+Site bladeSite(Level l, int start, bool axisX, float across, float along, float row) {
   float cellAlong = floor(along);
   float cellAcross = floor(across);
   Site site;
   site.cell = axisX ? vec2(cellAcross, cellAlong) : vec2(cellAlong, cellAcross);
-  site.plane = int((across - cellAcross) * float(v_slabs));
-  site.within = int(min(row, l.rows - 1.0)) * l.width + int((along - cellAlong) * l.columns);
+  int plane = int((across - cellAcross) * float(v_slabs));
+  site.texel =
+      start + plane * l.area + int(min(row, l.rows - 1.0)) * l.width + int((along - cellAlong) * l.columns);
   return site;
 }
 
@@ -96,11 +98,10 @@ vec2 mapPlace(vec2 tiles) {
 
 uint mapWord(vec2 cell) { return texelFetch(t_map, int(cell.y * v_mapStride + cell.x)).r; }
 
-// The stored texel at a site; `start` is where its level starts in the buffer.
-uint fetchSite(Site site, int start, int planesPerTile, int area, bool mean) {
-  int tile = int(mapWord(site.cell) & 0xffu);
-  tile = mean ? v_tiles : tile;
-  return texelFetch(t_relit, start + (tile * planesPerTile + site.plane) * area + site.within).r;
+// The stored texel at a site.
+uint fetchSite(Level l, Site site) {
+  int tile = max(int(mapWord(site.cell) & 0xffu), l.leastTile);
+  return texelFetch(t_relit, site.texel + tile * l.tileArea).r;
 }
 
 // Stored bytes to floats without their scale: colours in units of kColourUnit once squared.

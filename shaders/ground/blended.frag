@@ -24,13 +24,12 @@ void composite(uint stored, float weight, float times) {
 }
 
 void compositeBlades(Walk walk, Level level, bool axisX, float weight, float random) {
-  BladeWalk along = startBlades(walk, level, axisX, random);
-  Planes planes = along.planes;
+  BladeWalk blades = startBlades(walk, level, axisX, random);
+  Planes planes = blades.planes;
   for (int i = 0; i < kMaxBlendedBlades; ++i) {
     if (planes.t >= walk.tEnd) break;
-    Site site = bladeSite(level, along.start, axisX, planes.place, alongAt(along, planes.t),
-                          along.row + along.rowSlope * planes.t);
-    composite(fetchSite(level, site), weight, abs(planes.step) * float(v_slabs));
+    uint stored = fetchAlong(blades, level, axisX, planes.place, planes.t);
+    composite(stored, weight, abs(planes.step) * float(v_slabs));
     planes.t += planes.stride;
     planes.place += planes.step;
   }
@@ -55,8 +54,8 @@ void main() {
   Planes planes = slicePlanes(walk, fourthRandom(random));
   for (int i = 0; i < v_sliceLayers; ++i) {
     if (planes.t >= walk.tEnd) break;
-    Site site = sliceSite(layered, layerStart(layered, int(planes.place)), place + walk.slope * planes.t);
-    composite(fetchSite(layered, site), slices, 1.0);
+    int start = layerStart(layered, int(planes.place));
+    composite(fetchSlice(layered, start, place + walk.slope * planes.t), slices, 1.0);
     planes.t += planes.stride;
     planes.place += planes.step;
   }

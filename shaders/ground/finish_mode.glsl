@@ -69,8 +69,8 @@ vec4 tileOverlay(Walk walk, vec3 d) {
 #endif
 
 vec4 finishGround(Walk walk, vec3 d, vec3 value, float left, Level soilLevel, vec3 random) {
-  Site site = sliceSite(soilLevel, layerStart(soilLevel, v_sliceLayers - 1), slicePlace(walk, soilLevel) + walk.slope * max(walk.tEnd, 0.0));
-  vec3 soil = storedColour(fetchSite(soilLevel, site));
+  vec2 foot = slicePlace(walk, soilLevel) + walk.slope * max(walk.tEnd, 0.0);
+  vec3 soil = storedColour(fetchSlice(soilLevel, layerStart(soilLevel, v_sliceLayers - 1), foot));
 #if SWARD_SKY
   float behind = walk.slopeZ < 0.0 ? left * u_soilWeight : 0.0;
 #else

@@ -33,7 +33,8 @@ void composite(uint stored, float depthUnit) {
 float marchEnd(Planes planes, float tEnd) { return min(tEnd, planes.t + planes.stride * (float(kMaxSteps) - 0.5)); }
 
 // Both marches take two planes at a time, so that the second's fetches need not wait to hear whether the first ended
-// the ray. A second plane beyond tEnd has no depth.
+// the ray. A second plane beyond tEnd has no depth. Slices look up one tile for both: a second plane that is met on
+// another cell waits for the next step.
 
 #if SWARD_SLICES
 void marchSlices(Walk walk, Level level, float tEnd, float random) {
@@ -45,23 +46,25 @@ void marchSlices(Walk walk, Level level, float tEnd, float random) {
   float tMarch = marchEnd(planes, tEnd);
   while (t < tMarch && g_transmittance > kTransmittanceEnd) {
     float tNext = t + planes.stride;
-    bool both = tNext < tEnd;
-    uint first = fetchSite(level, sliceSite(level, start, place + walk.slope * t));
-    uint second = fetchSite(level, sliceSite(level, both ? start + step : start, place + walk.slope * tNext));
-    composite(first, planes.depthUnit);
-    composite(second, both ? planes.depthUnit : 0.0);
-    t = tNext + planes.stride;
-    start += 2 * step;
+    vec2 here = place + walk.slope * t;
+    vec2 next = place + walk.slope * tNext;
+    vec2 cell = floor(here);
+    bool near = floor(next) == cell;
+    bool both = near && tNext < tEnd;
+    int tile = start + tileStart(level, cell);
+    int first = tile + sliceTexel(level, here - cell);
+    int second = both ? tile + step + sliceTexel(level, next - cell) : first;
+    uint firstStored = texelFetch(t_relit, first).r;
+    uint secondStored = texelFetch(t_relit, second).r;
+    composite(firstStored, planes.depthUnit);
+    composite(secondStored, both ? planes.depthUnit : 0.0);
+    t = near ? tNext + planes.stride : tNext;
+    start += near ? 2 * step : step;
   }
 }
 #endif
 
 #if SWARD_BLADES
-uint fetchBlade(BladeWalk blades, Level level, bool axisX, float across, float t) {
-  float row = blades.row + blades.rowSlope * t;
-  return fetchSite(level, bladeSite(level, blades.start, axisX, across, alongAt(blades, t), row));
-}
-
 void marchBlades(Walk walk, Level level, bool axisX, float tEnd, float random) {
   BladeWalk blades = startBlades(walk, level, axisX, random);
   Planes planes = blades.planes;
@@ -70,8 +73,8 @@ void marchBlades(Walk walk, Level level, bool axisX, float tEnd, float random) {
   float tMarch = marchEnd(planes, tEnd);
   while (t < tMarch && g_transmittance > kTransmittanceEnd) {
     float tNext = t + planes.stride;
-    uint first = fetchBlade(blades, level, axisX, across, t);
-    uint second = fetchBlade(blades, level, axisX, across + planes.step, min(tNext, tEnd));
+    uint first = fetchAlong(blades, level, axisX, across, t);
+    uint second = fetchAlong(blades, level, axisX, across + planes.step, min(tNext, tEnd));
     composite(first, planes.depthUnit);
     composite(second, tNext < tEnd ? planes.depthUnit : 0.0);
     t = tNext + planes.stride;

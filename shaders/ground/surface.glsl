@@ -101,10 +101,6 @@ struct BladeWalk {
   int start;
 };
 
-// Where along the planes the ray is, in tiles.
-float alongAt(BladeWalk blades, float t) {
-  return blades.place + blades.slope * t + gridBend(blades.bend + blades.bendSlope * t);
-}
 
 // Where slices and soil are read: nearly straight below where the ray enters, one shift serves the whole ray.
 vec2 slicePlace(Walk walk, Level level) {
@@ -141,6 +137,12 @@ BladeWalk startBlades(Walk walk, Level level, bool axisX, float random) {
   return blades;
 }
 
+// What a ray meets at `t` in the plane through `across`.
+uint fetchAlong(BladeWalk blades, Level level, bool axisX, float across, float t) {
+  float along = blades.place + blades.slope * t + gridBend(blades.bend + blades.bendSlope * t);
+  return fetchBlade(level, blades.start, axisX, across, along, blades.row + blades.rowSlope * t);
+}
+
 Level soilLevelOf(Walk walk, vec3 random, float levelJitter) {
   float slant = mix(1.0, walk.path, kSoilLevelSlant);
   return sliceLevel((walk.tStart + walk.tEnd) * v_pixelAngle * slant, random, levelJitter);
@@ -167,8 +169,8 @@ vec3 throughHaze(vec3 radiance, vec3 d, float distanceM, float random) {
 // The picture of a ray that gathered `radiance` (over the relight scale) in the shell and has `left` of its
 // transmittance: soil or sky behind, macro variation, haze, exposure.
 vec4 finishGround(Walk walk, vec3 d, vec3 radiance, float left, Level soilLevel, vec3 random) {
-  Site site = sliceSite(soilLevel, layerStart(soilLevel, v_sliceLayers - 1), slicePlace(walk, soilLevel) + walk.slope * max(walk.tEnd, 0.0));
-  vec3 soil = storedColour(fetchSite(soilLevel, site));
+  vec2 foot = slicePlace(walk, soilLevel) + walk.slope * max(walk.tEnd, 0.0);
+  vec3 soil = storedColour(fetchSlice(soilLevel, layerStart(soilLevel, v_sliceLayers - 1), foot));
 #if SWARD_SKY
   bool soilSeen = walk.slopeZ < 0.0;
 #else

@@ -20,12 +20,6 @@ struct Level {
   int leastTile;      // where a pixel covers more than a tile that of the mean, which stands for every tile; else 0
 };
 
-// A texel of a set before its tile is known.
-struct Site {
-  vec2 cell;
-  int texel;  // from the start of the buffer, as if the tile were the first
-};
-
 // floor(log2(texels in the footprint) + a number in [0, 1)), from the exponent of a float.
 int mipLevel(float footprintTexels, float levelJitter) {
   return max((floatBitsToInt(footprintTexels * levelJitter) >> 23) - 127, 0);
@@ -62,31 +56,6 @@ Level bladeLevel(float footprintM, vec3 random, float levelJitter) {
   return l;
 }
 
-// First texel of a slice layer of the first tile.
-int layerStart(Level l, int layer) { return l.start + layer * l.area; }
-
-// The slice texel at a place in tiles, jittered already, of the layer that starts at `start`.
-Site sliceSite(Level l, int start, vec2 place) {
-  Site site;
-  site.cell = floor(place);
-  ivec2 texel = ivec2((place - site.cell) * l.columns);
-  site.texel = start + texel.y * l.width + texel.x;
-  return site;
-}
-
-// A blade texel: `across` and `along` count tiles along the planes' normal and along the plane, `row` rows from -1/2 up;
-// jittered already. axisX says that the planes are normal to x, `start` where the level of their set starts.
-Site bladeSite(Level l, int start, bool axisX, float across, float along, float row) {
-  float cellAlong = floor(along);
-  float cellAcross = floor(across);
-  Site site;
-  site.cell = axisX ? vec2(cellAcross, cellAlong) : vec2(cellAlong, cellAcross);
-  int plane = int((across - cellAcross) * float(v_slabs));
-  site.texel =
-      start + plane * l.area + int(min(row, l.rows - 1.0)) * l.width + int((along - cellAlong) * l.columns);
-  return site;
-}
-
 // A place in tiles from the local cell, moved by whole maps into the stored one: once a ray, which then walks on over
 // the border (a ray that leaves even that is opaque, or so distant that any tile will do).
 vec2 mapPlace(vec2 tiles) {
@@ -98,10 +67,33 @@ vec2 mapPlace(vec2 tiles) {
 
 uint mapWord(vec2 cell) { return texelFetch(t_map, int(cell.y * v_mapStride + cell.x)).r; }
 
-// The stored texel at a site.
-uint fetchSite(Level l, Site site) {
-  int tile = max(int(mapWord(site.cell) & 0xffu), l.leastTile);
-  return texelFetch(t_relit, site.texel + tile * l.tileArea).r;
+// First texel of the planes of the tile on a cell, counted from the first tile's.
+int tileStart(Level l, vec2 cell) { return max(int(mapWord(cell) & 0xffu), l.leastTile) * l.tileArea; }
+
+// First texel of a slice layer of the first tile.
+int layerStart(Level l, int layer) { return l.start + layer * l.area; }
+
+// The texel of a slice layer at a place in a tile, from its corner in tiles.
+int sliceTexel(Level l, vec2 place) {
+  ivec2 texel = ivec2(place * l.columns);
+  return texel.y * l.width + texel.x;
+}
+
+// The stored texel of the slice layer that starts at `start`, at a place in tiles, jittered already.
+uint fetchSlice(Level l, int start, vec2 place) {
+  vec2 cell = floor(place);
+  return texelFetch(t_relit, start + tileStart(l, cell) + sliceTexel(l, place - cell)).r;
+}
+
+// A stored blade texel: `across` and `along` count tiles along the planes' normal and along the plane, `row` rows from
+// -1/2 up; jittered already. axisX says that the planes are normal to x, `start` where the level of their set starts.
+uint fetchBlade(Level l, int start, bool axisX, float across, float along, float row) {
+  float cellAlong = floor(along);
+  float cellAcross = floor(across);
+  int plane = int((across - cellAcross) * float(v_slabs));
+  int within = int(min(row, l.rows - 1.0)) * l.width + int((along - cellAlong) * l.columns);
+  vec2 cell = axisX ? vec2(cellAcross, cellAlong) : vec2(cellAlong, cellAcross);
+  return texelFetch(t_relit, start + tileStart(l, cell) + plane * l.area + within).r;
 }
 
 // Stored bytes to floats without their scale: colours in units of kColourUnit once squared.

@@ -39,7 +39,7 @@ enum class FitPath : std::uint8_t {
 struct Fit {
   Basis basis = Basis::Lpt;
   int columns = 0, layers = 0, channels = 1;
-  int perColumn = 10;               ///< coefficients of one channel of one column: 10 (LPT) or 6 * layers (PTM)
+  int perColumn = 10;  ///< coefficients of one channel of one column: 10 (LPT), 6 * layers (PTM) or layers (Constant)
   std::vector<float> coefficients;  ///< [column][channel][perColumn]; the ten are b of lptBasis (u, not v)
   std::vector<std::uint8_t>
       rank;  ///< numerical rank of the data alone (before the ridge), per column; PTM: the least of its layers'
@@ -50,7 +50,7 @@ struct Fit {
   std::vector<float> condition;
   std::vector<float> weight;  ///< summed weight of the column's texels; 0 where empty
   std::vector<FitPath> path;  ///< PTM: Orthogonal when any of its layers is
-  /// PTM only: weight of each layer texel, [column][layer], 0 where there is none; empty for LPT.
+  /// PTM and Constant: weight of each layer texel, [column][layer], 0 where there is none; empty for LPT.
   std::vector<float> layerWeight;
 
   std::span<const float> column(int column, int channel) const {
@@ -70,9 +70,14 @@ struct Fit {
 /// that do not match, ridges below 0; Error::cancelled().
 Result<Fit> fit(const FitInput& input, const FitOptions& options, const JobContext& job);
 
+/// One response a texel as a fit of basis Constant: the light of one sun, or a mean over lights.
+/// responses[channel][texel] as in `input`, whose samples and lights are not read; values that are not finite count as
+/// absent.
+Fit constantFit(const FitInput& input, std::span<const std::span<const float>> responses);
+
 /// Fills empty columns from their neighbours on a periodic or bordered width x height image (pull-push, weighted by the
-/// columns' weight), so that filtering across an outline is sound. For PTM every layer image is filled by itself,
-/// weighted by layerWeight; a layer without any texel stays zero.
+/// columns' weight), so that filtering across an outline is sound. For PTM and Constant every layer image is filled by
+/// itself, weighted by layerWeight; a layer without any texel stays zero.
 void fillEmpty(Fit& fit, int width, int height, bool periodic);
 
 /// Cache payload. load returns false on damaged data and leaves `fit` as it was.

@@ -22,7 +22,9 @@ void checkInput(const LayerStackInput& in, const FitOptions& options) {
   SWARD_CHECK(options.clampQuantile >= 0.0 && options.clampQuantile < 0.5);
   const std::size_t columns = product(in.width, in.height, in.images);
   const std::size_t texels = columns * static_cast<std::size_t>(in.layers);
-  const std::size_t sets = in.basis == Basis::Lpt ? columns * kLptCoefficients : texels * kPtmCoefficients;
+  SWARD_CHECK_GT(stackCoefficients(in.basis), 0);
+  const std::size_t sets =
+      (in.basis == Basis::Lpt ? columns : texels) * static_cast<std::size_t>(stackCoefficients(in.basis));
   SWARD_CHECK_EQ(in.coefficients.size(), sets * static_cast<std::size_t>(in.channels));
   SWARD_CHECK_EQ(in.coverage.size(), texels);
   SWARD_CHECK_EQ(in.reflectance.size(), texels);
@@ -188,6 +190,11 @@ namespace {
 /// max(f, 0) of one channel, in the order that the header gives.
 float response(const LayerStack& stack, std::size_t column, std::size_t texel, int layer, int channel, float lx,
                float ly) {
+  if (stack.basis == Basis::Constant) {
+    std::array<float, 1> b;
+    dequantise(stack, texel, channel, b);
+    return std::max(b[0], 0.0f);
+  }
   if (stack.basis == Basis::Ptm) {
     std::array<float, kPtmCoefficients> b;
     dequantise(stack, texel, channel, b);

@@ -33,9 +33,10 @@ struct LayerStack {
   int width = 0, height = 0, images = 0, layers = 0;
   int channels = 2;
   int bits = 8;
-  /// Ranges, one per channel and coefficient: [channel][10] for LPT, [channel][6] for PTM (shared by all layers).
+  /// Ranges, one per channel and coefficient: [channel][perColumn()], for PTM and Constant shared by all layers.
   std::vector<CoefficientRange> ranges;
-  /// LPT: [column][channel][10]; PTM: [texel][channel][6]. One byte each, or two (little-endian) for 16 bits.
+  /// LPT: [column][channel][10]; PTM: [texel][channel][6]; Constant: [texel][channel]. One byte each, or two
+  /// (little-endian) for 16 bits.
   std::vector<std::uint8_t> coefficients;
   /// RGBA8 per texel: square root of the linear reflectance (straight), coverage (linear).
   std::vector<std::uint8_t> surface;
@@ -48,9 +49,9 @@ struct LayerStack {
     return static_cast<std::size_t>(images) * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   }
   std::size_t texelCount() const { return columnCount() * static_cast<std::size_t>(layers); }
-  int perColumn() const {
-    return basis == Basis::Lpt ? 10 : 6;
-  }  ///< coefficients of one channel of a column (LPT) or texel (PTM)
+  int perColumn() const { return stackCoefficients(basis); }
+  /// Of what coefficients belong to: columns (LPT) or texels (PTM, Constant).
+  std::size_t itemCount() const { return basis == Basis::Lpt ? columnCount() : texelCount(); }
   std::size_t lightingBytes() const { return coefficients.size(); }
   std::size_t totalBytes() const { return coefficients.size() + surface.size() + transmission.size() + sky.size(); }
 };
@@ -59,7 +60,7 @@ struct LayerStack {
 struct LayerStackInput {
   Basis basis = Basis::Lpt;
   int width = 0, height = 0, images = 1, layers = 0, channels = 2;
-  std::vector<float> coefficients;       ///< [column][channel][10] or [texel][channel][6]
+  std::vector<float> coefficients;       ///< [column][channel][10], [texel][channel][6] or [texel][channel]
   std::vector<float> coverage;           ///< per texel
   std::vector<glm::vec3> reflectance;    ///< per texel; anything where coverage is 0
   std::vector<glm::vec3> transmittance;  ///< per texel, or empty

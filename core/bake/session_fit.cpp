@@ -59,14 +59,6 @@ Result<std::shared_ptr<const HeldRepresentation>> Session::representation(LayerS
       [&](const JobContext& job) -> Result<HeldRepresentation> {
         SWARD_ASSIGN(const LightSamples samples, lightSamples(set, options.basis != lpt::Basis::Marched));
         lpt::RepresentationInput input{samples.input, samples.hits.get(), nullptr};
-        if (options.basis == lpt::Basis::Marched) {
-          SWARD_ASSIGN(auto grown, patch());
-          // As fine as the slices: a blade that fills a voxel keeps its direction.
-          trace::VoxelOptions voxels;
-          voxels.columns = m_project.sampling.sliceResolution;
-          voxels.layers = m_project.sampling.slices;
-          SWARD_ASSIGN(input.density, trace::VoxelDensity::create(std::move(grown), voxels, job));
-        }
         HeldRepresentation held;
         SWARD_ASSIGN(held.value, lpt::represent(input, options, true, job));
         return held;

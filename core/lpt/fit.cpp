@@ -1,5 +1,6 @@
 #include "lpt/fit.h"
 
+#include "base/check.h"
 #include "base/parallel.h"
 #include "lpt/fit_system.h"
 
@@ -90,10 +91,15 @@ Fit emptyFit(const FitInput& in, const FitOptions& options) {
 
 }  // namespace
 
-Result<Fit> fit(const FitInput& input, const FitOptions& options, const JobContext& job) {
+Result<void> detail::checkFit(const FitInput& input, const FitOptions& options) {
   SWARD_TRY(checkShape(input));
   SWARD_TRY(checkSamples(input));
-  SWARD_TRY(checkOptions(options));
+  return checkOptions(options);
+}
+
+Result<Fit> fit(const FitInput& input, const FitOptions& options, const JobContext& job) {
+  SWARD_CHECK(options.basis == Basis::Lpt || options.basis == Basis::Ptm);
+  SWARD_TRY(detail::checkFit(input, options));
   // A block's moments (128 columns of 16 texels: 100 KB a channel) stay in the second-level cache.
   constexpr std::size_t kGrain = 128;
   Fit result = emptyFit(input, options);

@@ -1,7 +1,6 @@
 #include "lpt/fit.h"
 
 #include "base/check.h"
-#include "lpt/polynomial.h"
 #include "lpt/pull_push.h"
 
 #include <cstddef>
@@ -10,27 +9,26 @@
 namespace sward::lpt {
 namespace {
 
-/// Fills the coefficients of one layer image of a fit that has some a layer texel; they lie in the fit's own order,
-/// channels apart.
+/// Fills the coefficients of one layer image; they lie in the fit's own order, channels apart.
 void fillLayer(Fit& fit, std::size_t layer, int width, int height, bool periodic) {
   const auto channels = static_cast<std::size_t>(fit.channels);
   const auto layers = static_cast<std::size_t>(fit.layers);
   const auto columns = static_cast<std::size_t>(fit.columns);
-  const auto count = static_cast<std::size_t>(stackCoefficients(fit.basis));
-  std::vector<float> values(columns * channels * count), weight(columns);
+  const int perTexel = fit.perColumn / fit.layers;
+  const auto n = static_cast<std::size_t>(perTexel);
+  std::vector<float> values(columns * channels * n), weight(columns);
   const auto forEach = [&](const auto& body) {
     for (std::size_t i = 0; i < columns; ++i) {
       for (std::size_t c = 0; c < channels; ++c) {
-        for (std::size_t j = 0; j < count; ++j) {
-          body(values[(i * channels + c) * count + j],
-               fit.coefficients[((i * channels + c) * layers + layer) * count + j]);
+        for (std::size_t j = 0; j < n; ++j) {
+          body(values[(i * channels + c) * n + j], fit.coefficients[((i * channels + c) * layers + layer) * n + j]);
         }
       }
     }
   };
   for (std::size_t i = 0; i < columns; ++i) weight[i] = fit.layerWeight[i * layers + layer];
   forEach([](float& mine, float& theirs) { mine = theirs; });
-  detail::pullPush(values, weight, width, height, fit.channels * stackCoefficients(fit.basis), periodic);
+  detail::pullPush(values, weight, width, height, fit.channels * perTexel, periodic);
   forEach([](float& mine, float& theirs) { theirs = mine; });
 }
 

@@ -3,6 +3,7 @@
 #include "base/bytes.h"
 #include "lpt/fit.h"
 #include "lpt/options.h"
+#include "lpt/quantisation.h"
 
 #include <array>
 #include <cstdint>
@@ -16,13 +17,6 @@ namespace sward::lpt {
 /// Response channels of a stack: what leaves reflect and what they transmit.
 inline constexpr int kReflected = 0;
 inline constexpr int kTransmitted = 1;
-
-/// b' = scale (b + base) (equation 7) is the stored integer, 0 to 255 or 65535; it is read back as b' / scale - base,
-/// in float. A constant coefficient has scale 0, is stored as 0 and read back as -base, exactly.
-struct CoefficientRange {
-  float scale = 0.0f;
-  float base = 0.0f;
-};
 
 /// Quantised layers, dense and ready to relight: `images` images (the tiles of a set, or 1) of width x height columns
 /// with `layers` layers. This is what is cached on disk, uploaded to the GPU, and counted in the report. Index of a

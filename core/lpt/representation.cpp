@@ -37,6 +37,8 @@ Result<std::unique_ptr<Representation>> represent(const RepresentationInput& inp
       return detail::representClustered(input, options, detail::LayerGroups::Adaptive, quantised, job);
     case Basis::Hsh:
       return detail::representHsh(input, options, 2, quantised, job);
+    case Basis::Sampled:
+      return Error::failed("light that is traced for one sun is not fitted", "fit.basis", "Choose another method");
     case Basis::Marched:
       break;
   }

@@ -7,7 +7,7 @@
 #include "trace/tiled_ground.h"
 
 #include <cstdint>
-#include <vector>
+#include <optional>
 
 #include <glm/glm.hpp>
 
@@ -25,13 +25,7 @@ struct PathScene {
   HorizonSky horizon;
 };
 
-/// A rectangle of pixels.
-struct PixelTile {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-};
-
-/// Traces one sample of every pixel of a tile at a time; a worker's own. A sample's value depends on its pixel and
-/// number alone.
+/// Traces samples of pixels; a worker's own. A sample's value depends on its pixel and number alone.
 class PathTracer {
  public:
   /// Samples are dealt to so many sequences in turn, scrambled independently of each other, so that the spread of their
@@ -40,66 +34,54 @@ class PathTracer {
 
   explicit PathTracer(const PathScene& scene);
 
-  /// Radiance times exposure of sample `sample` of each pixel, in the order of pixels().
-  const std::vector<glm::dvec3>& trace(const PixelTile& tile, int sample);
-  /// Pixels of the tile of the last trace(), as y * width + x: blocks of 4 x 4, which fill a packet.
-  const std::vector<std::uint32_t>& pixels() const { return m_pixels; }
-
-  std::uint64_t rays() const { return m_rays; }
-  std::uint64_t nearestSegments() const { return m_nearest.segments(); }
-  std::uint64_t occlusionSegments() const { return m_sunRays.segments() + m_skyRays.segments(); }
+  /// Radiance times exposure of sample `sample` of a pixel, x from the left and y from the top.
+  glm::dvec3 trace(int x, int y, int sample);
+  const GroundRays& rays() const { return m_rays; }
 
  private:
   /// A surface point that light is gathered at.
   struct Vertex {
-    std::uint32_t path = 0;    ///< index into m_pixels
     glm::dvec3 position{0.0};  ///< of the straight grid
-    glm::vec3 normal{0.0f};    ///< of the side that was seen
-    glm::dvec3 reflectance{0.0}, transmittance{0.0}, throughput{1.0};
+    glm::dvec3 normal{0.0};    ///< of the side that was seen
+    glm::dvec3 reflectance{0.0}, transmittance{0.0};
     glm::ivec2 shift{0};  ///< of the piece of the patch that it was cut from
   };
-  /// A ray whose nearest surface is asked for, and what it carries.
+  /// A ray whose nearest surface is asked for.
   struct Leg {
-    std::uint32_t path = 0;
-    glm::dvec3 origin{0.0}, direction{0.0}, throughput{1.0};
+    glm::dvec3 origin{0.0}, direction{0.0};
     double end = 0.0;
+    bool tiled = true;  ///< through the tiled ground, else the periodic patch laid by `shift`
     glm::ivec2 shift{0};
+    float start = 0.0f;  ///< surfaces nearer are passed over
   };
-  /// What a shadow ray brings when nothing is in its way.
-  struct Lit {
-    std::uint32_t path = 0;
-    glm::dvec3 radiance{0.0};
+  /// What a leg ended at: a surface, the ground's end in the far, or nothing (it rose out of the shell).
+  enum class End : std::uint8_t { Surface, Far, Above };
+  /// One sample's numbers.
+  struct Draw {
+    SampleSequence sequence;
+    std::uint64_t seed;
+    std::uint32_t rayId(std::uint32_t use) const;
   };
 
-  void listPixels(const PixelTile& tile);
-  void startPaths(int sample);
-  glm::dvec3 cameraDirection(std::uint32_t path) const;
+  glm::dvec3 cameraDirection(int x, int y, const Draw& draw) const;
   glm::dvec3 background(const glm::dvec3& direction) const;
-  void findVertices(std::uint32_t use);
-  void addLeaf(const Leg& leg, const GroundHit& hit);
-  void addSoil(const Leg& leg);
-  void gather(int bounce);
-  void gatherFrom(const Vertex& vertex, const LightSample& light, GroundRays& rays, std::vector<Lit>& lit,
-                  std::uint32_t use);
-  void scatter(int bounce);
-  GroundWalk walkFrom(const Vertex& vertex, const glm::dvec3& direction, double end) const;
-  void addLit(const GroundRays& rays, const std::vector<Lit>& lit);
-  void finish();
-  std::uint32_t rayId(std::uint32_t path, std::uint32_t use) const;
+  /// The primary ray from where it enters the shell, `enterM` from the eye.
+  Leg firstLeg(const glm::dvec3& direction, double enterM) const;
+  double endOf(const glm::dvec3& origin, const glm::dvec3& direction) const;
+  End follow(const Leg& leg, std::uint32_t rayId, Vertex& vertex);
+  Vertex leafAt(const Leg& leg, const GroundHit& hit) const;
+  Vertex soilAt(const Leg& leg) const;
+  glm::dvec3 gather(const Vertex& vertex, const Draw& draw, int bounce);
+  glm::dvec3 lightFrom(const Vertex& vertex, const LightSample& light, std::uint32_t rayId);
+  /// The next leg and what it is multiplied with; nothing where all light is absorbed.
+  std::optional<Leg> scatter(const Vertex& vertex, const Draw& draw, int bounce, glm::dvec3& throughput) const;
+  glm::dvec3 pathFrom(Vertex vertex, const Draw& draw);
 
   const PathScene& m_scene;
   const PatchScene::Impl& m_patch;
-  std::vector<std::uint32_t> m_pixels;
-  std::vector<SampleSequence> m_sequences;
-  std::vector<std::uint64_t> m_seeds;
-  std::vector<glm::dvec3> m_radiance;
-  std::vector<glm::dvec2> m_azimuth;  ///< horizontal direction of the primary ray
-  std::vector<double> m_clear;        ///< share of the ground's light that the haze lets through; below 0: no haze
-  std::vector<Leg> m_legs;
-  std::vector<Vertex> m_vertices;
-  std::vector<Lit> m_sunLit, m_skyLit;
-  GroundRays m_nearest, m_sunRays, m_skyRays;
-  std::uint64_t m_rays = 0;
+  glm::dvec3 m_eye;
+  double m_hazePerM;
+  GroundRays m_rays;
 };
 
 }  // namespace sward::trace

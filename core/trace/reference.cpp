@@ -14,7 +14,7 @@
 namespace sward::trace {
 namespace {
 
-constexpr int kTilePixels = 32;  ///< along the side of what a worker traces at a time: enough rays to fill packets
+constexpr int kTilePixels = 16;  ///< along the side of what a worker traces at a time
 constexpr int kMaxSide = 32768;  ///< as the largest image
 constexpr int kSequences = PathTracer::kSequences;
 
@@ -25,6 +25,11 @@ using PixelSums = std::array<glm::dvec3, kSequences>;
 bool finite(const glm::dvec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
+
+/// A rectangle of pixels.
+struct PixelTile {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
 
 class TracedReference final : public Reference {
  public:
@@ -42,6 +47,8 @@ class TracedReference final : public Reference {
 
  private:
   std::vector<PixelTile> tiles() const;
+  void addTile(const PixelTile& tile, int count, PathTracer& tracer, std::vector<PixelSums>& sums,
+               const JobContext& job) const;
   /// Samples of a sequence among the first `samples`.
   static int countOf(int sequence, int samples) { return (samples + kSequences - 1 - sequence) / kSequences; }
   image::Image blank() const { return image::Image(m_scene.options.width, m_scene.options.height, 3); }
@@ -63,6 +70,19 @@ std::vector<PixelTile> TracedReference::tiles() const {
   return out;
 }
 
+void TracedReference::addTile(const PixelTile& tile, int count, PathTracer& tracer, std::vector<PixelSums>& sums,
+                              const JobContext& job) const {
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    for (int x = tile.x0; x < tile.x1 && !job.cancelled(); ++x) {
+      PixelSums& pixel = sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(m_scene.options.width) +
+                              static_cast<std::size_t>(x)];
+      for (int sample = m_samples; sample < m_samples + count; ++sample) {
+        pixel[static_cast<std::size_t>(sample % kSequences)] += tracer.trace(x, y, sample);
+      }
+    }
+  }
+}
+
 Result<void> TracedReference::addSamples(int count, const JobContext& job) {
   SWARD_CHECK_GE(count, 0);
   const std::vector<PixelTile> all = tiles();
@@ -70,19 +90,14 @@ Result<void> TracedReference::addSamples(int count, const JobContext& job) {
   std::atomic<std::uint64_t> rays{0}, nearest{0}, occlusion{0};
   base::ProgressCounter progress(job, "reference", all.size());
   base::parallelFor(job, all.size(), 1, [&](std::size_t begin, std::size_t end) {
+    PathTracer tracer(m_scene);
     for (std::size_t tile = begin; tile < end; ++tile) {
-      PathTracer tracer(m_scene);
-      for (int sample = m_samples; sample < m_samples + count && !job.cancelled(); ++sample) {
-        const std::vector<glm::dvec3>& radiance = tracer.trace(all[tile], sample);
-        for (std::size_t i = 0; i < radiance.size(); ++i) {
-          sums[tracer.pixels()[i]][static_cast<std::size_t>(sample % kSequences)] += radiance[i];
-        }
-      }
-      rays += tracer.rays();
-      nearest += tracer.nearestSegments();
-      occlusion += tracer.occlusionSegments();
+      addTile(all[tile], count, tracer, sums, job);
       progress.add();
     }
+    rays += tracer.rays().rays();
+    nearest += tracer.rays().nearestSegments();
+    occlusion += tracer.rays().occlusionSegments();
   });
   if (job.cancelled()) return Error::cancelled();
   m_sums = std::move(sums);
@@ -161,7 +176,7 @@ Result<void> checkScene(const ReferenceScene& scene, const scene::Camera& camera
 Result<std::unique_ptr<Reference>> Reference::create(ReferenceScene scene, const scene::Camera& camera,
                                                      const ReferenceOptions& options) {
   SWARD_CHECK(scene.patch != nullptr && scene.plan != nullptr);
-  SWARD_ASSIGN(TiledGround ground, TiledGround::create(*scene.plan));
+  SWARD_ASSIGN(TiledGround ground, TiledGround::create(*scene.plan, scene.patch->patch()));
   SWARD_TRY(checkScene(scene, camera, options));
   SkyLight sky(scene.daylight, scene.uniformSky);
   SunLight sun(scene.daylight, options.sunRadiusDeg);

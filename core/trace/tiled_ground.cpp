@@ -10,8 +10,9 @@
 namespace sward::trace {
 namespace {
 
-/// What the arithmetic of walks and the 16 bits of a clearance bear.
+/// What the arithmetic of walks and the bits of a reach bear.
 constexpr int kMaxTexels = 1 << 15;
+constexpr int kMaxReach = (1 << 14) - 1;  ///< fits TiledGround::Texel
 
 Error badPlan(const std::string& what) {
   return Error::badInput(what, "ground plan", "Make it of a baked ground (bake::groundPlan).");
@@ -47,7 +48,7 @@ Result<void> checkPlan(const GroundPlan& plan) {
 
 }  // namespace
 
-Result<TiledGround> TiledGround::create(const GroundPlan& plan) {
+Result<TiledGround> TiledGround::create(const GroundPlan& plan, const scene::Patch& patch) {
   SWARD_TRY(checkPlan(plan));
   TiledGround ground;
   ground.m_texelM = plan.patchSideM / plan.patchTexels;
@@ -62,39 +63,43 @@ Result<TiledGround> TiledGround::create(const GroundPlan& plan) {
     }
   }
   ground.m_map = plan.map;
-  ground.m_texels.resize(plan.owner.size());
-  for (std::size_t i = 0; i < plan.owner.size(); ++i) ground.m_texels[i].edge = plan.owner[i];
-  ground.measureClearance();
+  const HeightField heights(patch, plan.patchTexels);
+  ground.m_heightUnit = heights.unitM();
+  for (int quadrant = 0; quadrant < 4; ++quadrant) ground.look(plan, heights, quadrant);
   return ground;
 }
 
-// Chessboard distance to the nearest texel of another piece or tile, in two passes: on the way to that texel lies a
-// neighbour of the own piece that is one step nearer.
-void TiledGround::measureClearance() {
+// The largest square of one piece ahead of a texel is one larger than the least of those of its three neighbours ahead,
+// where they belong to the same piece; squares stay within their tile.
+void TiledGround::look(const GroundPlan& plan, const HeightField& heights, int quadrant) {
   const int side = m_tileTexels;
-  const auto at = [&](std::size_t tile, int x, int y) -> Texel& {
-    return m_texels[(tile * static_cast<std::size_t>(side) + static_cast<std::size_t>(y)) *
-                        static_cast<std::size_t>(side) +
-                    static_cast<std::size_t>(x)];
+  const int dx = (quadrant & 1) != 0 ? -1 : 1, dy = (quadrant & 2) != 0 ? -1 : 1;
+  Texels& texels = m_quadrants[static_cast<std::size_t>(quadrant)];
+  texels.resize(plan.owner.size());
+  const auto at = [&](std::size_t tile, int x, int y) {
+    return (tile * static_cast<std::size_t>(side) + static_cast<std::size_t>(y)) * static_cast<std::size_t>(side) +
+           static_cast<std::size_t>(x);
   };
   for (std::size_t tile = 0; tile < m_offsets.size() / 4; ++tile) {
-    const auto relax = [&](int x, int y, int dx, int dy) {
-      Texel& here = at(tile, x, y);
-      const int nx = x + dx, ny = y + dy;
-      const bool inside = nx >= 0 && ny >= 0 && nx < side && ny < side;
-      const bool same = inside && m_offsets[tile * 4 + at(tile, nx, ny).edge] == m_offsets[tile * 4 + here.edge];
-      const int allowed = same ? at(tile, nx, ny).clearance + 1 : 0;
-      here.clearance = static_cast<std::uint16_t>(std::min<int>(here.clearance, allowed));
-    };
-    for (int y = 0; y < side; ++y) {
-      for (int x = 0; x < side; ++x) {
-        at(tile, x, y).clearance = static_cast<std::uint16_t>(side);
-        for (const auto& [dx, dy] : {std::pair{-1, -1}, {0, -1}, {1, -1}, {-1, 0}}) relax(x, y, dx, dy);
-      }
-    }
-    for (int y = side - 1; y >= 0; --y) {
-      for (int x = side - 1; x >= 0; --x) {
-        for (const auto& [dx, dy] : {std::pair{1, 1}, {0, 1}, {-1, 1}, {1, 0}}) relax(x, y, dx, dy);
+    const auto offsetOf = [&](std::size_t texel) { return m_offsets[tile * 4 + plan.owner[texel]]; };
+    for (int j = side - 1; j >= 0; --j) {
+      for (int i = side - 1; i >= 0; --i) {
+        const int x = dx > 0 ? i : side - 1 - i, y = dy > 0 ? j : side - 1 - j;
+        const std::size_t here = at(tile, x, y);
+        const glm::ivec2 offset = offsetOf(here);
+        int reach = 0;
+        if (i + 1 < side && j + 1 < side) {
+          const std::array ahead{at(tile, x + dx, y), at(tile, x, y + dy), at(tile, x + dx, y + dy)};
+          if (std::all_of(ahead.begin(), ahead.end(), [&](std::size_t t) { return offsetOf(t) == offset; })) {
+            const auto reachOf = [&](std::size_t n) -> int { return texels[ahead[n]].reach; };
+            reach = std::min(1 + std::min({reachOf(0), reachOf(1), reachOf(2)}), kMaxReach);
+          }
+        }
+        const int cornerX = dx > 0 ? x : x - reach, cornerY = dy > 0 ? y : y - reach;
+        texels[here].edge = plan.owner[here] & 3u;
+        texels[here].reach = static_cast<std::uint16_t>(reach) & 0x3fffu;
+        texels[here].top = heights.over(wrapped(cornerX + offset.x, m_patchTexels),
+                                        wrapped(cornerY + offset.y, m_patchTexels), reach + 1);
       }
     }
   }
@@ -111,32 +116,31 @@ TiledGround::Site TiledGround::siteOf(std::int64_t x, std::int64_t y) const {
   return site;
 }
 
-glm::ivec2 TiledGround::shiftAt(const Site& site) const {
+glm::ivec2 TiledGround::shiftAt(std::int64_t x, std::int64_t y) const {
+  const Site site = siteOf(x, y);
   const std::size_t tile = tileOf(site);
-  glm::ivec2 shift = m_offsets[tile * 4 + texelOf(site, tile).edge];
-  shift.x -= site.baseX;
-  shift.y -= site.baseY;
-  if (shift.x < 0) shift.x += m_patchTexels;
-  if (shift.y < 0) shift.y += m_patchTexels;
-  return shift;
+  const glm::ivec2 offset = m_offsets[tile * 4 + m_quadrants[0][texelIndex(site, tile)].edge];
+  return {wrapped(offset.x - site.baseX, m_patchTexels), wrapped(offset.y - site.baseY, m_patchTexels)};
 }
 
-GroundWalk::GroundWalk(const TiledGround& ground, const glm::dvec3& origin, const glm::dvec3& direction, double end) {
-  start(ground, origin, direction, end);
+GroundWalk::GroundWalk(const TiledGround& ground, const glm::dvec3& origin, const glm::dvec3& direction, double end)
+    : m_ground(&ground) {
+  start(origin, direction, end);
+  const std::size_t quadrant = (m_x.direction < 0.0 ? 1u : 0u) + (m_y.direction < 0.0 ? 2u : 0u);
+  m_texels = ground.m_quadrants[quadrant].data();
   m_site = ground.siteOf(m_x.texel, m_y.texel);
-  m_shift = ground.shiftAt(m_site);
-  m_texel = ground.texelOf(m_site, ground.tileOf(m_site));
+  look();
 }
 
 GroundWalk::GroundWalk(const TiledGround& ground, const glm::dvec3& origin, const glm::dvec3& direction, double end,
-                       const glm::ivec2& shift) {
-  start(ground, origin, direction, end);
-  m_periodic = true;
-  m_shift = shift;
+                       const glm::ivec2& shift)
+    : m_ground(&ground), m_offset(shift) {
+  start(origin, direction, end);
+  m_texel.top = HeightField::kSteps;
 }
 
-void GroundWalk::start(const TiledGround& ground, const glm::dvec3& origin, const glm::dvec3& direction, double end) {
-  const double texels = 1.0 / ground.texelM();
+void GroundWalk::start(const glm::dvec3& origin, const glm::dvec3& direction, double end) {
+  const double texels = 1.0 / m_ground->texelM();
   const auto axis = [&](double from, double along) {
     Axis out;
     out.origin = from * texels;
@@ -156,7 +160,29 @@ void GroundWalk::start(const TiledGround& ground, const glm::dvec3& origin, cons
   m_end = end;
 }
 
-void GroundWalk::moveSite(const TiledGround& ground, std::int64_t dx, std::int64_t dy) {
+// Reads the texel where the walk is.
+void GroundWalk::look() {
+  const std::size_t tile = m_ground->tileOf(m_site);
+  m_texel = m_texels[m_ground->texelIndex(m_site, tile)];
+  m_offset = m_ground->m_offsets[tile * 4 + m_texel.edge];
+}
+
+// Of the texel where the walk is, in [0, patch).
+glm::ivec2 GroundWalk::shiftHere() const {
+  const int patch = m_ground->m_patchTexels;
+  glm::ivec2 shift{m_offset.x - m_site.baseX, m_offset.y - m_site.baseY};
+  if (shift.x < 0) shift.x += patch;
+  if (shift.y < 0) shift.y += patch;
+  return shift;
+}
+
+glm::ivec2 GroundWalk::shift() const {
+  const int patch = m_ground->m_patchTexels;
+  return {wrapped(m_piece.patchX - m_piece.x, patch), wrapped(m_piece.patchY - m_piece.y, patch)};
+}
+
+void GroundWalk::moveSite(std::int64_t dx, std::int64_t dy) {
+  const TiledGround& ground = *m_ground;
   // Never further than to the neighbouring tile.
   const auto move = [&](int& within, int& cell, int& base, std::int64_t by, int cells) {
     within += static_cast<int>(by);
@@ -176,60 +202,82 @@ void GroundWalk::moveSite(const TiledGround& ground, std::int64_t dx, std::int64
   move(m_site.y, m_site.cellY, m_site.baseY, dy, ground.m_mapHeight);
 }
 
-// To the texel behind a border of one axis, met at t, which lies no further than `reach` texels away on either axis.
-void GroundWalk::step(const TiledGround& ground, bool alongX, double t, int reach) {
+// To the texel behind a border of one axis, met at t, which lies at most `reach` texels ahead on either axis.
+void GroundWalk::step(bool alongX, double t, int reach) {
   Axis& crossed = alongX ? m_x : m_y;
   Axis& other = alongX ? m_y : m_x;
   const std::int64_t from = crossed.texel, otherFrom = other.texel;
-  const double place = crossed.origin + t * crossed.direction;
   // The border's own number, not the place's, which rounding may have put on either side.
-  const std::int64_t border = floorOf(place + 0.5);
+  const std::int64_t border = floorOf(crossed.at(t) + 0.5);
   crossed.texel = crossed.direction > 0.0 ? border : border - 1;
-  other.texel = std::clamp<std::int64_t>(floorOf(other.origin + t * other.direction),
-                                         other.direction > 0.0 ? otherFrom : otherFrom - reach,
+  other.texel = std::clamp<std::int64_t>(floorOf(other.at(t)), other.direction > 0.0 ? otherFrom : otherFrom - reach,
                                          other.direction > 0.0 ? otherFrom + reach : otherFrom);
-  if (m_periodic) return;
+  if (m_texels == nullptr) return;
   const std::int64_t moved = crossed.texel - from, otherMoved = other.texel - otherFrom;
-  moveSite(ground, alongX ? moved : otherMoved, alongX ? otherMoved : moved);
+  moveSite(alongX ? moved : otherMoved, alongX ? otherMoved : moved);
+  look();
 }
 
-bool GroundWalk::next(const TiledGround& ground, WalkSegment& out) {
-  if (!(m_t < m_end) || ++m_segments > kMaxSegments) return false;
-  const int patch = ground.m_patchTexels;
-  if (!m_periodic) m_shift = ground.shiftAt(m_site);
-  const int px = wrapped(m_x.texel + m_shift.x, patch), py = wrapped(m_y.texel + m_shift.y, patch);
-  const auto texel = static_cast<float>(ground.m_texelM);
-  const auto place = [&](const Axis& axis, int onPatch) {
-    const double within = axis.origin + m_t * axis.direction - static_cast<double>(axis.texel);
+GroundWalk::Piece GroundWalk::beginPiece() const {
+  const int patch = m_ground->m_patchTexels;
+  Piece piece;
+  piece.x = m_x.texel;
+  piece.y = m_y.texel;
+  if (m_texels != nullptr) {
+    piece.patchX = m_site.x + m_offset.x;
+    piece.patchY = m_site.y + m_offset.y;
+    if (piece.patchX >= patch) piece.patchX %= patch;
+    if (piece.patchY >= patch) piece.patchY %= patch;
+  } else {
+    piece.patchX = wrapped(m_x.texel + m_offset.x, patch);
+    piece.patchY = wrapped(m_y.texel + m_offset.y, patch);
+  }
+  piece.borderX = m_x.leaves(m_x.direction > 0.0 ? patch - 1 - piece.patchX : piece.patchX);
+  piece.borderY = m_y.leaves(m_y.direction > 0.0 ? patch - 1 - piece.patchY : piece.patchY);
+  return piece;
+}
+
+bool GroundWalk::next(WalkSegment& out) {
+  while (m_t < m_end && ++m_pieces <= kMaxPieces) {
+    m_piece = beginPiece();
+    if (walkPiece(m_piece, out)) return true;
+  }
+  return false;
+}
+
+// Walks over one piece; false where the ray passes above everything on it.
+bool GroundWalk::walkPiece(const Piece& piece, WalkSegment& out) {
+  const int patch = m_ground->m_patchTexels;
+  const double border = std::min(piece.borderX, piece.borderY), last = std::min(border, m_end);
+  const glm::ivec2 shift = shiftHere();
+  double from = kNever, to = 0.0;  // of what is not above everything
+  while (true) {
+    const int reach = m_texels != nullptr ? m_texel.reach : patch;
+    const double leavesX = m_x.leaves(reach), leavesY = m_y.leaves(reach);
+    const double leaves = std::min(leavesX, leavesY), stop = std::min(leaves, last);
+    const double lowest = m_z + m_slope * (m_slope < 0.0 ? stop : m_t);
+    if (lowest <= m_texel.top * m_ground->m_heightUnit) {
+      from = std::min(from, m_t);
+      to = stop;
+    }
+    m_t = std::max(stop, m_t);
+    if (leaves >= last) {
+      if (last < m_end) step(piece.borderX <= piece.borderY, last, reach);
+      break;
+    }
+    step(leavesX <= leavesY, leaves, reach);
+    if (shiftHere() != shift) break;
+  }
+  if (from > to) return false;
+  const auto texel = static_cast<float>(m_ground->m_texelM);
+  const auto place = [&](const Axis& axis, std::int64_t world, int onPatch) {
+    const double within = axis.at(from) - static_cast<double>(world);
     return std::clamp(static_cast<float>(onPatch + within), 0.0f, static_cast<float>(patch)) * texel;
   };
-  out.origin = {place(m_x, px), place(m_y, py), static_cast<float>(m_z + m_t * m_slope)};
-  out.start = m_t;
-  // The patch's own border ends a segment, too.
-  const double borderX = m_x.leaves(m_x.direction > 0.0 ? patch - 1 - px : px);
-  const double borderY = m_y.leaves(m_y.direction > 0.0 ? patch - 1 - py : py);
-  const double border = std::min(borderX, borderY);
-  const double last = std::min(border, m_end);
-  while (true) {
-    const int reach = m_periodic ? patch : m_texel.clearance;
-    const double leavesX = m_x.leaves(reach), leavesY = m_y.leaves(reach);
-    const double leaves = std::min(leavesX, leavesY);
-    if (leaves >= last) {
-      m_t = last;
-      if (last < m_end) step(ground, borderX <= borderY, last, reach);
-      break;
-    }
-    step(ground, leavesX <= leavesY, leaves, reach);
-    const std::size_t tile = ground.tileOf(m_site);
-    m_texel = ground.texelOf(m_site, tile);
-    if (ground.shiftAt(m_site) != m_shift) {
-      m_t = leaves;
-      break;
-    }
-  }
-  if (!m_periodic) m_texel = ground.texelOf(m_site, ground.tileOf(m_site));
-  m_t = std::max(m_t, out.start);
-  out.length = static_cast<float>(m_t - out.start);
+  out.origin = {place(m_x, piece.x, piece.patchX), place(m_y, piece.y, piece.patchY),
+                static_cast<float>(m_z + from * m_slope)};
+  out.start = from;
+  out.length = static_cast<float>(to - from);
   return true;
 }
 

@@ -1,6 +1,7 @@
 #include "render/ground_pass.h"
 
 #include "render/macro_map.h"
+#include "scene/ground_look.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +12,6 @@ namespace {
 
 // The same as in shaders/ground/constants.glsl.
 constexpr double kDiagonalFade = 0.45;
-constexpr double kBendM = 19.0;  ///< length of the wave that bends the tiles' grid
-constexpr double kSunDiscGain = 60.0;
 
 constexpr unsigned kSlices = 1, kBladesX = 2, kBladesY = 4;
 /// Rays under the horizon by less than this may meet the sky within their pixel.
@@ -132,9 +131,10 @@ void setPlace(gpu::Program& program, const PassInput& input, const Frame& frame)
             glm::vec2(positiveModulo(cell.x + ground.map.width / 2, ground.map.width),
                       positiveModulo(cell.y + ground.map.height / 2, ground.map.height)));
   setIfUsed(program, "u_gridBendTiles", static_cast<float>(frame.options.gridBendM / side));
-  setIfUsed(program, "u_bendTurns", static_cast<float>(side / kBendM));
-  const glm::dvec2 turns = cell * (side / kBendM);
-  setIfUsed(program, "u_bendPhase", glm::vec2(positiveModulo(turns.y, 1.0), positiveModulo(turns.x + 0.4, 1.0)));
+  setIfUsed(program, "u_bendTurns", static_cast<float>(side / scene::kBendM));
+  const glm::dvec2 turns = cell * (side / scene::kBendM);
+  setIfUsed(program, "u_bendPhase",
+            glm::vec2(positiveModulo(turns.y, 1.0), positiveModulo(turns.x + scene::kBendPhaseTurns, 1.0)));
   setIfUsed(program, "u_macroFadePerM",
             static_cast<float>(kMacroFadePixels * pixelAngle / std::max(frame.options.macroScaleM, side)));
 }
@@ -199,7 +199,7 @@ void setLight(gpu::Program& program, const PassInput& input, const Frame& frame,
   setIfUsed(program, "u_exposure", static_cast<float>(exposureOf(frame) * weight));
   setIfUsed(program, "u_hazePerM", static_cast<float>(input.hazePerM));
   setIfUsed(program, "u_sunDirection", glm::vec3(input.sunDirection));
-  setIfUsed(program, "u_sunDisc", glm::vec3(input.sunIrradiance * kSunDiscGain));
+  setIfUsed(program, "u_sunDisc", glm::vec3(input.sunIrradiance * scene::kSunDiscGain));
 }
 
 void bindTextures(gpu::Program& program, const PassInput& input, const gpu::Texture& blocks) {

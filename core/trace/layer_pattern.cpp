@@ -9,24 +9,6 @@ namespace {
 
 constexpr int kMaxResolution = 16384;  ///< bounds the memory of a band of rows
 
-/// Interpolated normal of the side that a ray along `direction` sees.
-glm::vec3 viewerNormal(const scene::Patch& patch, const RawHit& raw, const glm::vec3& direction) {
-  const scene::Instance& instance = patch.instances[raw.surface.instance];
-  const mesh::Model& model = *patch.models[instance.model];
-  const glm::uvec3 corner = model.triangles[raw.surface.triangle];
-  const glm::vec3 a = model.positions[corner.x];
-  const glm::vec3 face = glm::cross(model.positions[corner.y] - a, model.positions[corner.z] - a);
-  glm::vec3 smooth = (1.0f - raw.u - raw.v) * model.normals[corner.x] + raw.u * model.normals[corner.y] +
-                     raw.v * model.normals[corner.z];
-  const float agreement = glm::dot(smooth, face);
-  if (!(glm::dot(smooth, smooth) > 1e-12f) || !std::isfinite(agreement)) smooth = face;
-  if (agreement < 0.0f) smooth = -smooth;
-  const glm::mat3 rotation(instance.worldFromModel);
-  if (glm::dot(rotation * face, direction) > 0.0f) smooth = -smooth;
-  const glm::vec3 world = rotation * smooth;
-  return world / glm::length(world);
-}
-
 glm::dvec2 viewerSide(LayerSet set) {
   switch (set) {
     case LayerSet::BladesPosX:
@@ -59,6 +41,23 @@ Result<void> checkOptions(LayerSet set, const LayerShape& shape, int subSamples)
 }
 
 }  // namespace
+
+glm::vec3 viewerNormal(const scene::Patch& patch, const RawHit& raw, const glm::vec3& direction) {
+  const scene::Instance& instance = patch.instances[raw.surface.instance];
+  const mesh::Model& model = *patch.models[instance.model];
+  const glm::uvec3 corner = model.triangles[raw.surface.triangle];
+  const glm::vec3 a = model.positions[corner.x];
+  const glm::vec3 face = glm::cross(model.positions[corner.y] - a, model.positions[corner.z] - a);
+  glm::vec3 smooth = (1.0f - raw.u - raw.v) * model.normals[corner.x] + raw.u * model.normals[corner.y] +
+                     raw.v * model.normals[corner.z];
+  const float agreement = glm::dot(smooth, face);
+  if (!(glm::dot(smooth, smooth) > 1e-12f) || !std::isfinite(agreement)) smooth = face;
+  if (agreement < 0.0f) smooth = -smooth;
+  const glm::mat3 rotation(instance.worldFromModel);
+  if (glm::dot(rotation * face, direction) > 0.0f) smooth = -smooth;
+  const glm::vec3 world = rotation * smooth;
+  return world / glm::length(world);
+}
 
 SetRays raysOf(LayerSet set, float side, float height, int layers) {
   const glm::vec3 alongX(side, 0.0f, 0.0f), alongY(0.0f, side, 0.0f), up(0.0f, 0.0f, height);

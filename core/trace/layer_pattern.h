@@ -27,6 +27,9 @@ struct RawHit {
   SurfaceId surface;
 };
 
+/// Interpolated unit normal at a hit, on the side that a ray along `direction` sees.
+glm::vec3 viewerNormal(const scene::Patch& patch, const RawHit& raw, const glm::vec3& direction);
+
 /// Rays of a layer set: from origin + u * uAxis + v * vAxis (u, v in [0, 1) over the image) along `direction`, which is
 /// one of the axes and parallel to none of the image's; the n slabs share `depth`, beginning at `lead`.
 struct SetRays {

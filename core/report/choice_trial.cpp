@@ -7,6 +7,7 @@
 #include "render/display.h"
 #include "render/frame_plan.h"
 #include "render/renderer.h"
+#include "report/row.h"
 #include "trace/reference.h"
 
 #include <algorithm>

@@ -68,7 +68,7 @@ Plot linePlot() {
 
 /// A soft pattern, brighter to the right.
 Picture picture(const std::string& name, const std::string& caption, float gain) {
-  Picture made{name, caption, image::Image(750, 420, 3), image::Image(750, 420, 3)};
+  Picture made{name, caption, image::Image(750, 120, 3), image::Image(750, 120, 3)};
   for (int y = 0; y < made.linear.height; ++y) {
     for (int x = 0; x < made.linear.width; ++x) {
       const float wave =

@@ -21,7 +21,7 @@ std::map<std::string, PagePicture> allPictures(const std::vector<Section>& secti
   std::map<std::string, PagePicture> pictures;
   for (const Section& section : sections)
     for (const Strip& strip : section.strips)
-      for (const Picture& picture : strip.pictures) pictures[picture.name] = {"data:image/png;base64,AAAA", 750, 420};
+      for (const Picture& picture : strip.pictures) pictures[picture.name] = {"data:image/png;base64,AAAA", 750, 120};
   return pictures;
 }
 

@@ -166,7 +166,8 @@ TEST_F(Writer, AFileInThePlaceOfAFolder) {
   }
 }
 
-/// Runs as somebody who may not write everywhere, where the tests run as root. The real user too: access(2) asks for it.
+/// Runs as somebody who may not write everywhere, where the tests run as root. The real user too: access(2) asks for
+/// it.
 class AsNobody {
  public:
   AsNobody() : m_root(::geteuid() == 0) {
@@ -205,6 +206,7 @@ TEST_F(Writer, AWriteProtectedFileIsNotReplaced) {
   ASSERT_TRUE(write(test::exampleSections()).ok());
   ::chmod(root().c_str(), 0777);
   for (const char* name : {"", "plots", "pictures", "tables"}) ::chmod((folder() / name).c_str(), 0777);
+  for (const std::string& name : kExampleFiles) ::chmod((folder() / name).c_str(), 0666);
   std::ofstream(folder() / "report.json") << "old";
   ::chmod((folder() / "report.json").c_str(), 0444);
   {

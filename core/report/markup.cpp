@@ -103,7 +103,9 @@ std::string figureText(double value, int significant) {
   const bool whole = value == std::round(value) && std::abs(value) < 1e6;
   if (whole) return printed("%.*f", 0, value);
   if (exponent >= -4 && exponent < 7) return fixedText(value, std::max(0, significant - 1 - exponent));
-  return rounded.substr(0, rounded.find('e')) + "e" + std::to_string(exponent);
+  std::string mantissa = rounded.substr(0, rounded.find('e'));
+  if (mantissa.find('.') != std::string::npos) mantissa.erase(mantissa.find_last_not_of(".0") + 1);
+  return mantissa + "e" + std::to_string(exponent);
 }
 
 std::string prefixedText(double value) {

@@ -76,8 +76,8 @@ std::string plotHtml(const Plot& plot, const SeriesLooks& looks) {
   const auto sentence = [&](const std::string& words) { caption += (caption.empty() ? "" : " ") + words; };
   if (plot.pareto) {
     sentence(
-        "Lower left is better. Filled points lie on the front (dashed): no other is at least as good in both; hollow "
-        "points in the shaded region are beaten by one that is.");
+        "Lower left is better. Filled points make the front (dashed): no other is as good in both and better in one. "
+        "Each hollow point, in the shaded region, is matched or beaten in both by a filled one.");
   }
   if (drawn.leftOut > 0) {
     sentence(std::to_string(drawn.leftOut) + (drawn.leftOut == 1 ? " point has" : " points have") +
@@ -163,8 +163,8 @@ std::string sectionHtml(const Section& section, const SeriesLooks& looks, const 
 
 constexpr const char* kHowToRead =
     "Each row holds only what was measured in this run; a dash stands for what was not. Times are medians of repeated "
-    "runs, with the fastest and the slowest below. Errors are against the ray-traced reference or held-out data, never "
-    "against what was fitted. Light data counts the bytes of lighting alone.";
+    "runs. Errors are against the ray-traced reference or held-out data, never against what was fitted. Light data "
+    "counts the bytes of lighting alone, total adds albedo, coverage and sky.";
 
 }  // namespace
 

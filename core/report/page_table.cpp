@@ -27,11 +27,14 @@ bool alignsRight(const TableColumn& column) {
                      [](const TableCell& cell) { return cell.text.empty() || cell.number.has_value(); });
 }
 
+std::string styleOf(const TableColumn& column) {
+  return std::string(alignsRight(column) ? "number" : column.wide ? "wide" : "text") + (column.quiet ? " quiet" : "");
+}
+
 std::string headerHtml(const TableColumn& column) {
   std::string name = escaped(column.name);
   if (!column.unit.empty()) name += " <span class=\"unit\">" + escaped(column.unit) + "</span>";
-  const std::string style = alignsRight(column) ? " class=\"number\"" : column.wide ? " class=\"wide\"" : "";
-  return "<th scope=\"col\"" + style + hintAttribute(column.hint) + ">" + name + "</th>";
+  return "<th scope=\"col\" class=\"" + styleOf(column) + "\"" + hintAttribute(column.hint) + ">" + name + "</th>";
 }
 
 std::string noteMarks(const TableCell& cell, const RowTable& table, const std::string& anchor) {
@@ -48,20 +51,15 @@ std::string cellHtml(const TableColumn& column, const TableCell& cell, bool firs
                      const std::string& anchor, const PictureLink& pictureLink) {
   const std::string tag = first ? "th scope=\"row\"" : "td";
   const std::string end = first ? "</th>" : "</td>";
-  if (cell.text.empty()) return "<" + tag + " class=\"none\" data-none>–" + end;
-  std::string style = alignsRight(column) ? "number" : column.wide ? "wide" : "";
-  if (!style.empty()) style = " class=\"" + style + "\"";
+  const std::string style = styleOf(column);
+  if (cell.text.empty()) return "<" + tag + " class=\"none " + style + "\" data-none>–" + end;
   const std::string value = cell.number ? " data-value=\"" + exactNumber(*cell.number) + "\"" : "";
   std::string text = escaped(cell.text);
   const bool picture = column.name == "picture" || column.name == "reference picture";
   const std::string link = picture ? pictureLink(cell.text) : std::string();
   if (!link.empty()) text = "<a href=\"" + escaped(link) + "\">" + text + "</a>";
-  // A word may break where an underscore is.
-  for (std::size_t at = 0; first && (at = text.find('_', at)) != std::string::npos; at += 6)
-    text.insert(at + 1, "<wbr>");
   text += noteMarks(cell, table, anchor);
-  if (!cell.detail.empty()) text += "<span class=\"detail\">" + escaped(cell.detail) + "</span>";
-  return "<" + tag + style + value + hintAttribute(cell.hint) + ">" + text + end;
+  return "<" + tag + " class=\"" + style + "\"" + value + hintAttribute(cell.hint) + ">" + text + end;
 }
 
 std::string alikeHtml(const RowTable& table) {

@@ -56,7 +56,7 @@ void addLinearTicks(Axis& axis) {
 
 /// Ticks at 1 to 9 times powers of ten; which are labelled depends on how many decades there are.
 void addLogTicks(Axis& axis) {
-  const double decades = std::log10(axis.high / axis.low);
+  const double decades = std::log10(axis.high) - std::log10(axis.low);
   if (decades < 0.75) return addLinearTicks(axis);
   const int first = static_cast<int>(std::floor(std::log10(axis.low)));
   const int last = static_cast<int>(std::ceil(std::log10(axis.high)));
@@ -112,7 +112,7 @@ Axis linearAxis(const std::vector<double>& values) {
 
 double Axis::place(double value) const {
   if (!log) return (value - low) / (high - low);
-  return std::log(value / low) / std::log(high / low);
+  return (std::log(value) - std::log(low)) / (std::log(high) - std::log(low));
 }
 
 Axis axisOf(std::span<const double> values, bool log) {

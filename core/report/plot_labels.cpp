@@ -9,6 +9,7 @@
 namespace sward::report {
 namespace {
 
+constexpr double kGap = 3.0;   ///< beside a label, so that two words do not become one
 constexpr double kStep = 4.0;  ///< length of the boxes that stand for a line
 
 double characterWidth(char c) {
@@ -41,9 +42,10 @@ void LabelPlacer::avoidLine(double x0, double y0, double x1, double y1) {
   }
 }
 
-bool LabelPlacer::isFree(const Box& box, bool linesToo) const {
+bool LabelPlacer::isFree(const Box& label, bool linesToo) const {
+  const Box box{label.left - kGap, label.top, label.right + kGap, label.bottom};
   const auto covers = [&](const Box& other) { return box.overlaps(other); };
-  if (!box.inside(m_frame) || std::any_of(m_taken.begin(), m_taken.end(), covers)) return false;
+  if (!label.inside(m_frame) || std::any_of(m_taken.begin(), m_taken.end(), covers)) return false;
   return !linesToo || std::none_of(m_lines.begin(), m_lines.end(), covers);
 }
 

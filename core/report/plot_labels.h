@@ -35,7 +35,7 @@ class LabelPlacer {
   std::optional<Box> place(double x, double y, double width, double height);
 
  private:
-  bool isFree(const Box& box, bool linesToo) const;
+  bool isFree(const Box& label, bool linesToo) const;
 
   Box m_frame;
   std::vector<Box> m_taken, m_lines;

@@ -12,10 +12,12 @@
 namespace sward::report {
 namespace {
 
-constexpr double kWidth = 640.0, kHeight = 400.0;
-constexpr Box kFrame{66.0, 16.0, 624.0, 344.0};
-constexpr double kLabelSize = 12.0;   ///< of the font, as plotStyle() has it
-constexpr double kLegendLine = 20.0;  ///< of the legend's lines
+// The page shows plots at about this size, so that text has its own.
+constexpr double kWidth = 540.0, kHeight = 372.0;
+constexpr Box kFrame{64.0, 12.0, 520.0, 318.0};
+constexpr Box kLabels{64.0, 4.0, 538.0, 317.0};  ///< where labels may stand
+constexpr double kLabelSize = 12.0;              ///< of the font, as plotStyle() has it
+constexpr double kLegendLine = 20.0;             ///< of the legend's lines
 
 std::string number(double value) {
   return fixedText(value, 1);
@@ -72,7 +74,7 @@ struct Mark {
 
 class Drawing {
  public:
-  Drawing(const Plot& plot, const SeriesLooks& looks) : m_plot(plot), m_looks(looks), m_placer(kFrame) {
+  Drawing(const Plot& plot, const SeriesLooks& looks) : m_plot(plot), m_looks(looks), m_placer(kLabels) {
     collect();
     chooseLabels();
   }

@@ -64,15 +64,18 @@ std::string titleOf(const RowList& rows) {
       common.erase(cut == std::string::npos ? 0 : cut);
     }
   }
-  return nameAndUnit(common).first;
+  std::string words = nameAndUnit(common).first;
+  if (!words.empty() && words.front() >= 'a' && words.front() <= 'z')
+    words.front() = static_cast<char>(words.front() - 'a' + 'A');
+  return words;
 }
 
 }  // namespace
 
 std::pair<std::string, std::string> nameAndUnit(const std::string& name) {
   static const std::vector<std::pair<std::string, std::string>> kUnits{
-      {"_ms", "ms"}, {"_s", "s"},         {"_db", "dB"},     {"_deg", "°"},
-      {"_m", "m"},   {"_bytes", "bytes"}, {"_percent", "%"}, {"_px", "px"}};
+      {"_ms", "ms"},       {"_s", "s"},       {"_db", "dB"}, {"_deg", "°"}, {"_m", "m"},
+      {"_bytes", "bytes"}, {"_percent", "%"}, {"_px", "px"}, {"_mb", "MB"}};
   std::string words = name, unit;
   for (const auto& [ending, meaning] : kUnits) {
     if (words.size() > ending.size() && words.ends_with(ending)) {

@@ -12,7 +12,6 @@ namespace sward::report {
 /// A cell of a table for people. Texts are plain: whoever writes them out escapes them.
 struct TableCell {
   std::string text;                ///< empty: not measured
-  std::string detail;              ///< a second, smaller line
   std::string hint;                ///< shown when pointed at
   std::optional<double> number;    ///< what numeric columns sort by
   std::vector<std::size_t> notes;  ///< of RowTable::notes
@@ -22,6 +21,7 @@ struct TableColumn {
   std::string name, unit, hint;  ///< unit empty: none
   bool numeric = false;          ///< numbers in one unit: right-aligned, all with as many decimals as the range allows
   bool wide = false;             ///< long text
+  bool quiet = false;            ///< beside the point: smaller
   std::vector<TableCell> cells;  ///< one a row
 };
 

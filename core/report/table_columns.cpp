@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -29,7 +28,7 @@ constexpr std::array kErrors{
     Known{"ssim", "SSIM", "", "Structural similarity, 1 where equal; larger is better"},
     Known{"flip", "FLIP", "", "Difference that a person sees who alternates between the two; smaller is better"},
     Known{"bias", "bias", "", "Mean error: above 0 is too bright; nearer to 0 is better"},
-    Known{"max", "max", "", "Largest error of a single value; smaller is better"}};
+    Known{"max", "max error", "", "Largest error of a single value; smaller is better"}};
 
 /// A parameter's value as people write it: text without its quotes, numbers with few digits, lists in short.
 std::string parameterText(const Json& value) {
@@ -40,20 +39,20 @@ std::string parameterText(const Json& value) {
   return value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Decimals that give the least of the values three digits, as long as the largest keeps to seven.
+/// Decimals that give three quarters of the values three digits at least, as long as the largest keeps to six.
 int commonDecimals(const TableColumn& column) {
-  double least = std::numeric_limits<double>::infinity(), largest = 0.0;
+  std::vector<double> sizes;
   bool whole = true;
   for (const TableCell& cell : column.cells) {
     if (!cell.number || !std::isfinite(*cell.number)) continue;
     const double size = std::abs(*cell.number);
     whole = whole && *cell.number == std::round(*cell.number);
-    largest = std::max(largest, size);
-    if (size > 0.0) least = std::min(least, size);
+    if (size > 0.0) sizes.push_back(size);
   }
-  if (whole || largest == 0.0) return 0;
-  const int wanted = 2 - static_cast<int>(std::floor(std::log10(least)));
-  const int room = 5 - static_cast<int>(std::floor(std::log10(largest)));
+  if (whole || sizes.empty()) return 0;
+  std::sort(sizes.begin(), sizes.end());
+  const int wanted = 2 - static_cast<int>(std::floor(std::log10(sizes[sizes.size() / 4])));
+  const int room = 4 - static_cast<int>(std::floor(std::log10(sizes.back())));
   return std::clamp(std::min(wanted, room), 0, 7);
 }
 
@@ -86,6 +85,8 @@ void scaleColumn(TableColumn& column, const std::vector<std::pair<double, const 
   }
 }
 
+const std::vector<std::pair<double, const char*>> kByteUnits{{1.0, "bytes"}, {1024.0, "KiB"}, {1048576.0, "MiB"}};
+
 class Filler {
  public:
   Filler(const RowList& rows, RowTable& table) : m_rows(rows), m_table(table) {}
@@ -98,7 +99,7 @@ class Filler {
     ratios();
     numbers("bake", "s", "Time that baking took", [](const Row& row) { return row.bakeSeconds; });
     bytes("light data", "Bytes of lighting data alone", [](const Row& row) { return row.bytes; });
-    bytes("in all", "Bytes with albedo, coverage and sky", [](const Row& row) { return row.bytesTotal; });
+    bytes("total", "Bytes with albedo, coverage and sky", [](const Row& row) { return row.bytesTotal; });
     errors();
     references();
   }
@@ -115,7 +116,7 @@ class Filler {
     if (!text.empty()) cell.notes.push_back(note(text));
   }
   TableColumn column(const std::string& name, const std::string& unit, const std::string& hint, bool numeric) const {
-    TableColumn made{name, unit, hint, numeric, false, {}};
+    TableColumn made{name, unit, hint, numeric, false, false, {}};
     made.cells.resize(m_rows.size());
     return made;
   }
@@ -153,7 +154,7 @@ class Filler {
       made.cells[i].number = static_cast<double>(*size);
       made.cells[i].hint = std::to_string(*size) + " bytes";
     }
-    scaleColumn(made, {{1.0, "bytes"}, {1024.0, "KiB"}, {1048576.0, "MiB"}});
+    scaleColumn(made, kByteUnits);
     add(std::move(made));
   }
   void times();
@@ -191,7 +192,6 @@ void Filler::parameters() {
     }
   }
   TableColumn rest = column("parameters", "", "", false);
-  rest.wide = true;
   for (std::size_t i = 0; i < m_rows.size(); ++i) {
     for (const auto& [name, value] : m_rows[i]->numbersAndNames) {
       if (!shared.contains(name)) continue;
@@ -200,6 +200,7 @@ void Filler::parameters() {
       text += (text.empty() ? "" : ", ") + words + " " + parameterText(Json::parse(value));
       if (!unit.empty()) text += " " + unit;
     }
+    rest.wide = rest.wide || codePoints(rest.cells[i].text) > kLongText;
   }
   add(std::move(rest));
 }
@@ -215,11 +216,14 @@ void Filler::parameterColumn(const std::string& name) {
     if (value.is_number()) made.cells[i].number = value.get<double>();
     made.numeric = made.numeric && value.is_number();
   }
+  if (made.numeric && made.unit == "bytes") scaleColumn(made, kByteUnits);
   add(std::move(made));
 }
 
 void Filler::times() {
-  TableColumn made = column("time", "", "Median of repeated runs, with the fastest and the slowest", true);
+  TableColumn made = column("time", "", "Median of repeated runs", true);
+  TableColumn spread = column("spread", "", "Fastest and slowest run; sorts by their distance over the median", false);
+  spread.quiet = true;
   for (std::size_t i = 0; i < m_rows.size(); ++i) {
     if (m_rows[i]->timeMs) made.cells[i].number = m_rows[i]->timeMs->median;
   }
@@ -229,9 +233,13 @@ void Filler::times() {
     const auto& time = m_rows[i]->timeMs;
     if (!time) continue;
     made.cells[i].hint = std::to_string(time->runs) + (time->runs == 1 ? " run" : " runs");
-    if (time->runs > 1) made.cells[i].detail = figureText(time->min / unit) + " – " + figureText(time->max / unit);
+    if (time->runs < 2) continue;
+    spread.cells[i].text = figureText(time->min / unit) + " – " + figureText(time->max / unit);
+    spread.cells[i].number = (time->max - time->min) / time->median;
+    spread.cells[i].hint = made.cells[i].hint;
   }
   add(std::move(made));
+  add(std::move(spread));
 }
 
 void Filler::rates() {
@@ -297,12 +305,12 @@ void Filler::references() {
   std::set<std::string> references;
   for (const Row* row : m_rows) references.insert(row->reference);
   if (references.size() == 1) {
-    if (!references.begin()->empty()) m_table.alike.emplace_back("errors against", *references.begin());
+    if (!references.begin()->empty()) m_table.alike.emplace_back("reference", *references.begin());
     return;
   }
   for (std::size_t i = 0; i < m_rows.size(); ++i) {
     if (m_rows[i]->reference.empty()) continue;
-    noteCell(m_table.columns.front().cells[i], "Errors against " + m_rows[i]->reference + ".");
+    noteCell(m_table.columns.front().cells[i], "Reference: " + m_rows[i]->reference);
   }
 }
 

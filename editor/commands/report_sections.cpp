@@ -47,7 +47,7 @@ Result<Section> speedSection(const Program& program, const std::string& projectF
   section.summary =
       "How fast each step is, in one row for every target that was set: sampling layers, fitting, relighting, drawing "
       "at "
-      "1280 x 720, whole renders, edits until they are seen, and the bytes that light data takes. A ratio is this over "
+      "1280 × 720, whole renders, edits until they are seen, and the bytes that light data takes. A ratio is this over "
       "a "
       "limit, or over the fastest known way to do the same, measured in the same run.";
   const report::SpeedInput speed{input.project, input.context, input.cacheFolder, input.quick};

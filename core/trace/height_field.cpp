@@ -10,7 +10,7 @@ namespace sward::trace {
 
 HeightField::HeightField(const scene::Patch& patch, int texels)
     : m_texels(texels), m_sideM(patch.sideM), m_unitM(std::max(patch.heightM, 1e-6) / (kSteps - 2)) {
-  m_levels.emplace_back(static_cast<std::size_t>(texels) * static_cast<std::size_t>(texels), std::uint16_t{0});
+  m_levels.emplace_back(static_cast<std::size_t>(texels) * static_cast<std::size_t>(texels), std::uint8_t{0});
   for (const scene::Instance& instance : patch.instances) {
     if (patch.models[instance.model]) raise(patch, instance);
   }
@@ -29,7 +29,7 @@ void HeightField::raise(const scene::Patch& patch, const scene::Instance& instan
     const glm::vec3 a = world[corner.x], b = world[corner.y], c = world[corner.z];
     const glm::dvec3 low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c));
     const double units = std::ceil(std::clamp(high.z / m_unitM, 0.0, kSteps - 1.0)) + 1.0;
-    const auto top = static_cast<std::uint16_t>(std::min<double>(units, kSteps));
+    const auto top = static_cast<std::uint8_t>(std::min<double>(units, kSteps));
     // A box wider than the patch covers every texel once.
     const auto span = [&](double from, double to) {
       const std::int64_t first = floorOf(from * texelsPerM - kSlack);
@@ -41,7 +41,7 @@ void HeightField::raise(const scene::Patch& patch, const scene::Instance& instan
     const auto [y0, rows] = span(low.y, high.y);
     for (int row = 0; row < rows; ++row) {
       for (int column = 0; column < columns; ++column) {
-        std::uint16_t& here = m_levels[0][index(wrap(x0 + column), wrap(y0 + row))];
+        std::uint8_t& here = m_levels[0][index(wrap(x0 + column), wrap(y0 + row))];
         here = std::max(here, top);
       }
     }
@@ -50,8 +50,8 @@ void HeightField::raise(const scene::Patch& patch, const scene::Instance& instan
 
 void HeightField::buildLevels() {
   for (int half = 1; 2 * half <= m_texels; half *= 2) {
-    const std::vector<std::uint16_t>& finer = m_levels.back();
-    std::vector<std::uint16_t> level(finer.size());
+    const std::vector<std::uint8_t>& finer = m_levels.back();
+    std::vector<std::uint8_t> level(finer.size());
     for (int y = 0; y < m_texels; ++y) {
       for (int x = 0; x < m_texels; ++x) {
         const int east = wrap(x + half), north = wrap(y + half);
@@ -63,13 +63,13 @@ void HeightField::buildLevels() {
   }
 }
 
-std::uint16_t HeightField::over(int x, int y, int side) const {
+std::uint8_t HeightField::over(int x, int y, int side) const {
   const auto k =
       std::min(static_cast<std::size_t>(std::bit_width(static_cast<unsigned>(side)) - 1), m_levels.size() - 1);
-  const std::vector<std::uint16_t>& level = m_levels[k];
+  const std::vector<std::uint8_t>& level = m_levels[k];
   // Two overlapping squares a side cover it; all of a patch whose side is no power of two needs more.
   const int part = 1 << k, last = std::min(side, m_texels) - part;
-  std::uint16_t top = 0;
+  std::uint8_t top = 0;
   for (int dy = 0;; dy = std::min(dy + part, last)) {
     for (int dx = 0;; dx = std::min(dx + part, last)) {
       top = std::max(top, level[index(wrap(x + dx), wrap(y + dy))]);

@@ -49,6 +49,7 @@ PathTracer::PathTracer(const PathScene& scene)
     : m_scene(scene),
       m_patch(scene.scene.patch->impl()),
       m_eye(scene.camera.position),
+      m_topM(static_cast<double>(m_patch.height + m_patch.offset)),
       m_hazePerM(scene.scene.hazeKm > 0.0 ? 1.0 / (scene.scene.hazeKm * kMetresPerKilometre) : 0.0),
       m_rays(m_patch) {
   m_eye.z = std::max(m_eye.z, kLowestEyeM);
@@ -65,11 +66,11 @@ glm::dvec3 PathTracer::trace(int x, int y, int sample) {
   const auto index = static_cast<std::uint32_t>(sample / kSequences);
   const Draw draw{SampleSequence(seed, index), base::mix64(seed, index)};
   const glm::dvec3 d = cameraDirection(x, y, draw);
-  const double exposure = m_scene.options.exposure, height = m_patch.patch->heightM;
+  const double exposure = m_scene.options.exposure;
   double enter = 0.0;
-  if (m_eye.z > height) {
+  if (m_eye.z > m_topM) {
     if (d.z >= 0.0) return exposure * background(d);
-    enter = (height - m_eye.z) / d.z;
+    enter = (m_topM - m_eye.z) / d.z;
   }
   if (!(enter < kFarM)) return exposure * m_scene.horizon.at(glm::dvec2(d));
   Vertex vertex;

@@ -80,6 +80,7 @@ class PathTracer {
   const PathScene& m_scene;
   const PatchScene::Impl& m_patch;
   glm::dvec3 m_eye;
+  double m_topM;  ///< where primary rays enter the shell: a hair above it, since leaves may lie in its top
   double m_hazePerM;
   GroundRays m_rays;
 };

@@ -12,7 +12,7 @@ namespace {
 
 /// What the arithmetic of walks and the bits of a reach bear.
 constexpr int kMaxTexels = 1 << 15;
-constexpr int kMaxReach = (1 << 14) - 1;  ///< fits TiledGround::Texel
+constexpr int kMaxReach = 63;  ///< fits TiledGround::Texel
 
 Error badPlan(const std::string& what) {
   return Error::badInput(what, "ground plan", "Make it of a baked ground (bake::groundPlan).");
@@ -97,7 +97,7 @@ void TiledGround::look(const GroundPlan& plan, const HeightField& heights, int q
         }
         const int cornerX = dx > 0 ? x : x - reach, cornerY = dy > 0 ? y : y - reach;
         texels[here].edge = plan.owner[here] & 3u;
-        texels[here].reach = static_cast<std::uint16_t>(reach) & 0x3fffu;
+        texels[here].reach = static_cast<std::uint8_t>(reach) & 63u;
         texels[here].top = heights.over(wrapped(cornerX + offset.x, m_patchTexels),
                                         wrapped(cornerY + offset.y, m_patchTexels), reach + 1);
       }
@@ -113,13 +113,13 @@ TiledGround::Site TiledGround::siteOf(std::int64_t x, std::int64_t y) const {
   site.baseY = wrapped(y - site.y, m_patchTexels);
   site.cellX = wrapped((x - site.x) / m_tileTexels + m_mapWidth / 2, m_mapWidth);
   site.cellY = wrapped((y - site.y) / m_tileTexels + m_mapHeight / 2, m_mapHeight);
+  site.tile = tileOf(site);
   return site;
 }
 
 glm::ivec2 TiledGround::shiftAt(std::int64_t x, std::int64_t y) const {
   const Site site = siteOf(x, y);
-  const std::size_t tile = tileOf(site);
-  const glm::ivec2 offset = m_offsets[tile * 4 + m_quadrants[0][texelIndex(site, tile)].edge];
+  const glm::ivec2 offset = m_offsets[site.tile * 4 + m_quadrants[0][texelIndex(site)].edge];
   return {wrapped(offset.x - site.baseX, m_patchTexels), wrapped(offset.y - site.baseY, m_patchTexels)};
 }
 
@@ -162,9 +162,8 @@ void GroundWalk::start(const glm::dvec3& origin, const glm::dvec3& direction, do
 
 // Reads the texel where the walk is.
 void GroundWalk::look() {
-  const std::size_t tile = m_ground->tileOf(m_site);
-  m_texel = m_texels[m_ground->texelIndex(m_site, tile)];
-  m_offset = m_ground->m_offsets[tile * 4 + m_texel.edge];
+  m_texel = m_texels[m_ground->texelIndex(m_site)];
+  m_offset = m_ground->m_offsets[m_site.tile * 4 + m_texel.edge];
 }
 
 // Of the texel where the walk is, in [0, patch).
@@ -191,15 +190,20 @@ void GroundWalk::moveSite(std::int64_t dx, std::int64_t dy) {
       cell = cell == 0 ? cells - 1 : cell - 1;
       base -= ground.m_tileModPatch;
       if (base < 0) base += ground.m_patchTexels;
-    } else if (within >= ground.m_tileTexels) {
+      return true;
+    }
+    if (within >= ground.m_tileTexels) {
       within -= ground.m_tileTexels;
       cell = cell + 1 == cells ? 0 : cell + 1;
       base += ground.m_tileModPatch;
       if (base >= ground.m_patchTexels) base -= ground.m_patchTexels;
+      return true;
     }
+    return false;
   };
-  move(m_site.x, m_site.cellX, m_site.baseX, dx, ground.m_mapWidth);
-  move(m_site.y, m_site.cellY, m_site.baseY, dy, ground.m_mapHeight);
+  const bool leftX = move(m_site.x, m_site.cellX, m_site.baseX, dx, ground.m_mapWidth);
+  const bool leftY = move(m_site.y, m_site.cellY, m_site.baseY, dy, ground.m_mapHeight);
+  if (leftX || leftY) m_site.tile = ground.tileOf(m_site);
 }
 
 // To the texel behind a border of one axis, met at t, which lies at most `reach` texels ahead on either axis.

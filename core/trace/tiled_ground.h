@@ -31,9 +31,9 @@ class TiledGround {
   friend class GroundWalk;
   /// A texel of a tile as rays toward one quadrant (east or west, north or south) see it.
   struct Texel {
-    std::uint16_t edge : 2 = 0;    ///< whose diamond owns it
-    std::uint16_t reach : 14 = 0;  ///< the square of so many more texels ahead shows the same piece of the patch
-    std::uint16_t top = 0;         ///< nothing in that square stands higher, in m_heightUnit
+    std::uint8_t edge : 2 = 0;   ///< whose diamond owns it
+    std::uint8_t reach : 6 = 0;  ///< the square of so many more texels ahead shows the same piece of the patch
+    std::uint8_t top = 0;        ///< nothing in that square stands higher, in HeightField::unitM
   };
   using Texels = std::vector<Texel>;  ///< [tile][y][x]
   /// A texel of the world by its cell of the map and within that cell's tile.
@@ -41,15 +41,16 @@ class TiledGround {
     int cellX = 0, cellY = 0;  ///< of the map, wrapped
     int x = 0, y = 0;          ///< within the tile
     int baseX = 0, baseY = 0;  ///< world texel of the tile's corner, modulo the patch
+    std::size_t tile = 0;      ///< of the cell
   };
   Site siteOf(std::int64_t x, std::int64_t y) const;
   std::size_t tileOf(const Site& site) const {
     return m_map[static_cast<std::size_t>(site.cellY) * static_cast<std::size_t>(m_mapWidth) +
                  static_cast<std::size_t>(site.cellX)];
   }
-  std::size_t texelIndex(const Site& site, std::size_t tile) const {
+  std::size_t texelIndex(const Site& site) const {
     const auto side = static_cast<std::size_t>(m_tileTexels);
-    return (tile * side + static_cast<std::size_t>(site.y)) * side + static_cast<std::size_t>(site.x);
+    return (site.tile * side + static_cast<std::size_t>(site.y)) * side + static_cast<std::size_t>(site.x);
   }
   void look(const GroundPlan& plan, const HeightField& heights, int quadrant);
 

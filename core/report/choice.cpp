@@ -123,7 +123,7 @@ class Search {
   Result<Trial> measure(const Candidate& candidate, bool floor) {
     if (m_job.cancelled()) return Error::cancelled();
     if (m_job.onProgress) m_job.onProgress("measuring " + candidateText(candidate), m_from);
-    SWARD_ASSIGN(const TrialMeasurement measured, measureTrial(m_input, candidate, floor, m_job));
+    SWARD_ASSIGN(const TrialMeasurement measured, measureTrial(m_input, candidate, floor, m_references, m_job));
     Trial trial;
     trial.candidate = candidate;
     trial.floor = floor;
@@ -156,6 +156,7 @@ class Search {
   const ChoiceInput& m_input;
   const JobContext& m_job;
   Choice m_choice;
+  ReferenceStore m_references;
   double m_from = 0.0;
 };
 

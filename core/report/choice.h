@@ -50,7 +50,7 @@ struct Choice {
 /// Sentences for people: what was chosen, why, and what else was measured.
 std::string choiceText(const Choice& choice);
 
-inline constexpr int kTrialWidth = 384, kTrialHeight = 216;
+inline constexpr int kTrialWidth = 320, kTrialHeight = 180;
 
 struct ChoiceInput {
   const project::Project& project;  ///< valid; its accuracy says the bound

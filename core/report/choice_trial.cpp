@@ -13,11 +13,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
+#include <string_view>
 
 namespace sward::report {
 namespace {
 
-constexpr int kReferenceSamples = 64;
+constexpr int kReferenceSamples = 32;
 constexpr int kTimedFrames = 3;
 
 /// What the views of one candidate share.
@@ -49,12 +51,18 @@ double displayNoise(const image::Image& mean, const image::Image& variance, rend
   return above.pixels.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(above.pixels.size()));
 }
 
-Result<ViewError> compareView(const Bench& bench, const scene::View& view, const JobContext& job) {
-  SWARD_ASSIGN(render::Frame frame, render::planFrame(bench.project, view, bench.daylight));
-  frame.width = kTrialWidth;
-  frame.height = kTrialHeight;
-  frame.options.macroVariation = 0.0;  // a choice of taste, no error
-  SWARD_ASSIGN(const image::Image drawn, bench.renderer.drawDisplay(frame));
+/// Of what a reference of the view shows: the tiles and where they lie, which soil, and from where.
+base::Hash128 truthKey(const trace::GroundPlan& plan, const scene::View& view) {
+  base::Hasher hasher;
+  hasher.add(std::string_view(view.name)).add(plan.patchTexels).add(plan.tileTexels);
+  for (const auto& tile : plan.offsets) {
+    for (const glm::ivec2& offset : tile) hasher.add(offset.x).add(offset.y);
+  }
+  hasher.bytes(std::as_bytes(std::span(plan.owner))).bytes(std::as_bytes(std::span(plan.map)));
+  return hasher.finish();
+}
+
+Result<ReferenceStore::Truth> traceView(const Bench& bench, const render::Frame& frame, const JobContext& job) {
   trace::ReferenceOptions options;
   options.width = frame.width;
   options.height = frame.height;
@@ -67,11 +75,28 @@ Result<ViewError> compareView(const Bench& bench, const scene::View& view, const
                    frame.camera, options));
   SWARD_TRY(reference->addSamples(kReferenceSamples, job));
   const image::Image truth = reference->mean();
+  const render::ViewTransform transform = frame.options.viewTransform;
+  return ReferenceStore::Truth{render::toDisplay(truth, transform),
+                               displayNoise(truth, reference->variance(), transform)};
+}
+
+Result<ViewError> compareView(const Bench& bench, const scene::View& view, ReferenceStore& references,
+                              const JobContext& job) {
+  SWARD_ASSIGN(render::Frame frame, render::planFrame(bench.project, view, bench.daylight));
+  frame.width = kTrialWidth;
+  frame.height = kTrialHeight;
+  frame.options.macroVariation = 0.0;  // a choice of taste, no error
+  SWARD_ASSIGN(const image::Image drawn, bench.renderer.drawDisplay(frame));
+  const base::Hash128 key = truthKey(bench.plan, view);
+  const ReferenceStore::Truth* truth = references.find(key);
+  if (truth == nullptr) {
+    SWARD_ASSIGN(ReferenceStore::Truth traced, traceView(bench, frame, job));
+    truth = &references.add(key, std::move(traced));
+  }
   ViewError error;
   error.name = view.name;
-  error.noise = displayNoise(truth, reference->variance(), frame.options.viewTransform);
-  const image::Image shown = render::toDisplay(truth, frame.options.viewTransform);
-  SWARD_ASSIGN(error.figures, image::compareDisplayImages({shown, drawn}, {}, job));
+  error.noise = truth->noise;
+  SWARD_ASSIGN(error.figures, image::compareDisplayImages({truth->display, drawn}, {}, job));
   return error;
 }
 
@@ -109,7 +134,7 @@ double ViewError::value(ErrorBound metric) const {
 }
 
 Result<TrialMeasurement> measureTrial(const ChoiceInput& input, const Candidate& candidate, bool floor,
-                                      const JobContext& job) {
+                                      ReferenceStore& references, const JobContext& job) {
   project::Project project = input.project;
   applyCandidate(candidate, project);
   if (floor) project.fit.basis = lpt::Basis::Sampled;
@@ -126,7 +151,7 @@ Result<TrialMeasurement> measureTrial(const ChoiceInput& input, const Candidate&
   const Bench bench{project, ground, daylight, *renderer, *patch, bake::groundPlan(*ground)};
   TrialMeasurement measured;
   for (const scene::View& view : input.views) {
-    SWARD_ASSIGN(measured.views.emplace_back(), compareView(bench, view, quiet));
+    SWARD_ASSIGN(measured.views.emplace_back(), compareView(bench, view, references, quiet));
   }
   SWARD_ASSIGN(measured.drawMs, drawTime(bench, input.views));
   Result<void> outcome;

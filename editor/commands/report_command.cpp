@@ -24,14 +24,33 @@ std::string formatted(const char* format, double value) {
   return text.data();
 }
 
-std::string rowText(const report::Row& row) {
+/// What tells a row from the others of its method: words and whole numbers that differ, but for measured ones.
+std::string distinction(const report::Row& row, const std::vector<report::Row>& rows) {
+  constexpr std::size_t kLongest = 24;
+  std::string text;
+  for (const auto& [name, value] : row.numbersAndNames) {
+    const bool measured = name.ends_with("_bytes") || name.ends_with("_ms") || name == "rays";
+    const bool plain = value.front() == '"' || value.find_first_not_of("0123456789-") == std::string::npos;
+    const auto differs = [&, key = name](const report::Row& other) {
+      const auto found = other.numbersAndNames.find(key);
+      return other.method == row.method && found != other.numbersAndNames.end() &&
+             found->second != row.numbersAndNames.at(key);
+    };
+    if (measured || !plain || value.size() > kLongest || std::none_of(rows.begin(), rows.end(), differs)) continue;
+    const Json json = Json::parse(value);
+    text += (text.empty() ? " (" : ", ") + (json.is_string() ? json.get<std::string>() : name + " " + value);
+  }
+  return text.empty() ? text : text + ")";
+}
+
+std::string rowText(const report::Row& row, const std::vector<report::Row>& rows) {
   std::vector<std::string> parts;
   if (row.timeMs) parts.push_back(secondsText(row.timeMs->median / 1000.0));
   if (row.rate) parts.push_back(formatted("%.4g ", *row.rate) + row.rateUnit + "/s");
   if (row.ratio) parts.push_back("ratio " + formatted("%.3g", *row.ratio));
   if (row.bytes) parts.push_back(bytesText(*row.bytes));
   for (const auto& [name, value] : row.error) parts.push_back(name + " " + formatted("%.4g", value));
-  std::string text = row.method + ":";
+  std::string text = row.method + distinction(row, rows) + ":";
   for (std::size_t i = 0; i < parts.size(); ++i) text += (i == 0 ? " " : ", ") + parts[i];
   return text;
 }
@@ -104,7 +123,8 @@ void sayRows(const Program& program, const std::vector<report::Section>& section
   double total = 0.0;
   for (const report::Section& section : sections) {
     if (sections.size() > 1) say(program, section.name);
-    for (const report::Row& row : section.rows) say(program, (sections.size() > 1 ? "  " : "") + rowText(row));
+    for (const report::Row& row : section.rows)
+      say(program, (sections.size() > 1 ? "  " : "") + rowText(row, section.rows));
     seconds += section.name + " " + formatted("%.1f", section.seconds) + ", ";
     total += section.seconds;
   }

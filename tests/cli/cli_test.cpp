@@ -125,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{{"check", "p.sward", "--set", "lights.pattern=sun_path", "--set", "lights.sunPath.latitudeDeg=80",
                "--set", "lights.sunPath.dates=[{\"month\": 12}]"},
               "never stands higher"},
-        Wrong{{"report", "p.sward", "-o", "r", "--section", "sped"}, "sped"},
+        Wrong{{"report", "p.sward", "-o", "r", "--section", "sped"}, "Did you mean \"speed\"? Sections: speed"},
         Wrong{{"report", "p.sward", "-o", "file"}, "file"}, Wrong{{"export", "p.sward", "-o", "file"}, "file"},
         Wrong{{"new", "n.sward", "--template", "medow"}, "Did you mean \"meadow\""},
         Wrong{{"new", "n.sward", "--grass", "missing.glb"}, "missing.glb"},

@@ -1,0 +1,102 @@
+#include "cli/run_program.h"
+
+#include "base/file.h"
+
+#include "bake/small_project.h"
+#include "bake/temporary_folder.h"
+
+#include <array>
+#include <cstdio>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+
+namespace sward {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// A folder with a small project `p.sward` in it.
+class ReportCommand : public testing::Test {
+ protected:
+  ReportCommand() : m_folder("report-command") {
+    fs::create_directories(work());
+    EXPECT_TRUE(project::save(bake::test::smallProject(), work() / "p.sward").ok());
+  }
+  fs::path work() const { return m_folder.path() / "work"; }
+  test::Outcome run(std::vector<std::string> arguments, double interruptAfter = -1.0) const {
+    arguments.insert(arguments.end(), {"--cache", (m_folder.path() / "cache").string()});
+    return test::runProgram(work(), arguments, interruptAfter);
+  }
+  std::string contents(const fs::path& path) const {
+    const auto text = base::readTextFile(work() / path);
+    EXPECT_TRUE(text.ok()) << path;
+    return text.ok() ? *text : std::string();
+  }
+
+ private:
+  test::TemporaryFolder m_folder;
+};
+
+/// What tests/report/recompute.py says of a report, and its exit code.
+std::pair<int, std::string> recompute(const fs::path& report) {
+  const std::string command =
+      std::string(SWARD_PYTHON) + " " + SWARD_SOURCE_DIR + "/tests/report/recompute.py '" + report.string() + "' 2>&1";
+  std::FILE* pipe = ::popen(command.c_str(), "r");
+  if (pipe == nullptr) return {-1, "cannot start it"};
+  std::string said;
+  std::array<char, 4096> buffer{};
+  while (std::fgets(buffer.data(), buffer.size(), pipe) != nullptr) said += buffer.data();
+  return {WEXITSTATUS(::pclose(pipe)), said};
+}
+
+TEST_F(ReportCommand, WritesAPageWhoseFiguresFollowFromItsFiles) {
+  const test::Outcome outcome = run({"report", "p.sward", "-o", "r", "--quick", "--section", "speed", "--json"});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("layer_sampling: "), HasSubstr("edit_stall: "), HasSubstr("seconds: speed "),
+                                 HasSubstr("wrote r/report.html"), HasSubstr("storage (lpt, bits 8, ")));
+  EXPECT_THAT(test::listing(work() / "r"), ElementsAre("files.txt", "report.html", "report.json"));
+  const Json report = Json::parse(contents("r/report.json"));
+  EXPECT_EQ(report, Json::parse(outcome.out));
+  EXPECT_GT(report["sections"]["speed"]["rows"].size(), 20u);
+  const std::string page = contents("r/report.html");
+  EXPECT_THAT(page, AllOf(HasSubstr("sward report p.sward -o r --quick --section speed --json --cache "),
+                          HasSubstr("id=\"speed\""), HasSubstr("layer_sampling"), testing::EndsWith("</html>\n")));
+  const auto [code, said] = recompute(work() / "r");
+  EXPECT_EQ(code, 0) << said;
+}
+
+TEST_F(ReportCommand, CtrlCLeavesNothingHalfWritten) {
+  for (const double after : {0.3, 1.5}) {
+    const test::Outcome outcome = run({"report", "p.sward", "-o", "r"}, after);
+    EXPECT_EQ(outcome.exitCode, 130) << outcome.err;
+    EXPECT_LT(outcome.seconds, 1.0);
+    EXPECT_THAT(test::listing(work()), ElementsAre("p.sward"));
+  }
+}
+
+TEST_F(ReportCommand, WrongFoldersAreFoundBeforeAnythingIsMeasured) {
+  std::ofstream(work() / "file") << "x";
+  const test::Outcome outcome = run({"report", "p.sward", "-o", "file/below"});
+  EXPECT_EQ(outcome.exitCode, 2);
+  EXPECT_LT(outcome.seconds, 5.0);
+  EXPECT_THAT(outcome.err, HasSubstr("file: this is not a folder"));
+  EXPECT_THAT(outcome.out, IsEmpty());
+}
+
+TEST_F(ReportCommand, HelpListsTheSections) {
+  const test::Outcome outcome = run({"report", "--help"});
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("Sections:\n  speed"), HasSubstr("report.html"), HasSubstr("Examples:")));
+}
+
+}  // namespace
+}  // namespace sward

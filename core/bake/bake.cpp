@@ -2,8 +2,12 @@
 
 #include "bake/session.h"
 #include "scene/lights.h"
+#include "scene/sun_sky.h"
+#include "trace/canopy_light.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace sward::bake {
 
@@ -19,6 +23,10 @@ struct Baker::Impl {
     GroundKeys keys;
   };
   Result<Plan> plan(const GroundRequest& request);
+  /// Walks the graph of a request: walk(session) gives what is wanted.
+  template <typename Walk>
+  auto run(const GroundRequest& request, const JobContext& job, BakeReport* report, const Walk& walk)
+      -> decltype(walk(std::declval<Session&>()));
 
   Options options;
   std::optional<DiskCache> disk, noDisk;
@@ -26,14 +34,46 @@ struct Baker::Impl {
   AssetHashes assets;
 };
 
+namespace {
+
+/// A sun below the horizon lights nothing, whatever is baked for it; passes follow no shadow beyond their lowest light.
+glm::dvec3 aboveHorizon(const glm::dvec3& sun, Sampler sampler) {
+  const double lowest = sampler == Sampler::Passes ? trace::CanopyLight::kLowestZ : 0.0;
+  if (sun.z >= lowest) return sun;
+  const double level = std::hypot(sun.x, sun.y);
+  if (!(level > 0.0)) return {std::sqrt(1.0 - lowest * lowest), 0.0, lowest};
+  const double wide = std::sqrt(1.0 - lowest * lowest) / level;
+  return {sun.x * wide, sun.y * wide, lowest};
+}
+
+}  // namespace
+
 Result<Baker::Impl::Plan> Baker::Impl::plan(const GroundRequest& request) {
   SWARD_TRY(project::requireValid(request.project));
   Plan plan;
   plan.project = atQuality(request.project, request.quality);
   SWARD_ASSIGN(plan.lights, scene::lightDirections(plan.project.lights));
-  plan.settings = {request.quality == Quality::Coarse ? Sampler::Passes : Sampler::Rays, request.layout};
+  plan.settings = {request.quality == Quality::Coarse ? Sampler::Passes : Sampler::Rays, request.layout, {}};
+  if (lpt::needsSun(plan.project.fit.basis)) {
+    SWARD_ASSIGN(const glm::dvec3 sun, scene::sunDirection(plan.project.sun));
+    plan.settings.sun = aboveHorizon(sun, plan.settings.sampler);
+  }
   SWARD_ASSIGN(plan.keys, groundKeys(plan.project, plan.lights, plan.settings, assets));
   return plan;
+}
+
+template <typename Walk>
+auto Baker::Impl::run(const GroundRequest& request, const JobContext& job, BakeReport* report, const Walk& walk)
+    -> decltype(walk(std::declval<Session&>())) {
+  SWARD_ASSIGN(const Plan planned, plan(request));
+  // What is only looked at for a moment is not worth a place on the disk; nor is what hangs on an earlier picture.
+  const bool keep = request.quality == Quality::Full && request.layout.empty();
+  Session session({planned.project, planned.lights, planned.settings, planned.keys, memory, keep ? disk : noDisk,
+                   options.holdTraced},
+                  job);
+  auto result = walk(session);
+  if (report != nullptr) *report = session.takeReport();
+  return result;
 }
 
 std::vector<glm::ivec2> layoutOf(const GroundBake& ground) {
@@ -57,15 +97,11 @@ Result<std::shared_ptr<const GroundBake>> Baker::ground(const project::Project& 
 
 Result<std::shared_ptr<const GroundBake>> Baker::ground(const GroundRequest& request, const JobContext& job,
                                                         BakeReport* report) {
-  SWARD_ASSIGN(const Impl::Plan plan, m_impl->plan(request));
-  // What is only looked at for a moment is not worth a place on the disk; nor is what hangs on an earlier picture.
-  const bool keep = request.quality == Quality::Full && request.layout.empty();
-  Session session({plan.project, plan.lights, plan.settings, plan.keys, m_impl->memory,
-                   keep ? m_impl->disk : m_impl->noDisk, m_impl->options.holdTraced},
-                  job);
-  auto ground = session.ground();
-  if (report != nullptr) *report = session.takeReport();
-  return ground;
+  return m_impl->run(request, job, report, [](Session& session) { return session.ground(); });
+}
+
+Result<std::vector<tiles::SeamColumn>> Baker::seamColumns(const GroundRequest& request, const JobContext& job) {
+  return m_impl->run(request, job, nullptr, [](Session& session) { return session.seamColumns(); });
 }
 
 Result<base::Hash128> Baker::key(const GroundRequest& request) {
@@ -93,14 +129,7 @@ Result<std::shared_ptr<const Inspection>> Baker::inspection(const project::Proje
 
 Result<std::shared_ptr<const Inspection>> Baker::inspection(const GroundRequest& request, const JobContext& job,
                                                             BakeReport* report) {
-  SWARD_ASSIGN(const Impl::Plan plan, m_impl->plan(request));
-  const bool keep = request.quality == Quality::Full && request.layout.empty();
-  Session session({plan.project, plan.lights, plan.settings, plan.keys, m_impl->memory,
-                   keep ? m_impl->disk : m_impl->noDisk, m_impl->options.holdTraced},
-                  job);
-  auto inspection = session.inspection();
-  if (report != nullptr) *report = session.takeReport();
-  return inspection;
+  return m_impl->run(request, job, report, [](Session& session) { return session.inspection(); });
 }
 
 }  // namespace sward::bake

@@ -8,6 +8,7 @@
 #include "base/job.h"
 #include "base/result.h"
 #include "project/project.h"
+#include "tiles/tile_set.h"
 
 #include <cstdint>
 #include <memory>
@@ -82,6 +83,8 @@ class Baker {
                                                        BakeReport* report = nullptr);
   Result<std::shared_ptr<const Inspection>> inspection(const GroundRequest& request, const JobContext& job,
                                                        BakeReport* report = nullptr);
+  /// What the seams of the ground's tiles compare, an entry a column of the slices: for trying other tiles.
+  Result<std::vector<tiles::SeamColumn>> seamColumns(const GroundRequest& request, const JobContext& job);
   /// Whether ground() would neither trace nor fit, since all of that is held in memory: true of a ground whose colours
   /// alone were edited (Options::holdTraced). Errors as key().
   Result<bool> tracesNothing(const GroundRequest& request);

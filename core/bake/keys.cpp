@@ -21,6 +21,7 @@ constexpr int kLuminanceVersion = 1;
 constexpr int kVisibilityVersion = 1;
 constexpr int kSurfaceVersion = 1;
 constexpr int kFitVersion = 1;
+constexpr int kRepresentationVersion = 1;
 constexpr int kTilesVersion = 2;
 constexpr int kStackVersion = 1;
 constexpr int kGroundVersion = 2;
@@ -99,8 +100,23 @@ Hash128 hitsKey(const Hash128& patch, trace::LayerSet set, const trace::Sampling
   return hasher.finish();
 }
 
-Hash128 fitKey(const SetKeys& keys, const lpt::FitOptions& options) {
+/// Of a representation that is relit on the processor.
+Hash128 representationKey(const SetKeys& keys, const Hash128& patch, const lpt::FitOptions& options) {
+  Hasher hasher = start("representation", kRepresentationVersion);
+  hasher.add(keys.hits).add(keys.visibility).add(options.basis).add(options.clusters).add(options.layerRidge);
+  hasher.add(options.lightRidge).add(options.bits).add(options.clampQuantile);
+  if (options.basis == lpt::Basis::Marched) return hasher.add(patch).finish();
+  for (const Hash128& light : keys.luminance) hasher.add(light);
+  return hasher.finish();
+}
+
+Hash128 fitKey(const SetKeys& keys, const lpt::FitOptions& options, const std::optional<glm::dvec3>& sun) {
   Hasher hasher = start("fit", kFitVersion);
+  if (lpt::needsSun(options.basis)) {
+    hasher.add(keys.hits).add(keys.visibility).add(options.basis);
+    if (options.basis == lpt::Basis::Sampled) return hasher.add(keys.sunLuminance).finish();
+    return hasher.add(keys.representation).add(sun->x).add(sun->y).add(sun->z).finish();
+  }
   hasher.add(keys.hits).add(keys.visibility).add(keys.luminance.size());
   for (const Hash128& light : keys.luminance) hasher.add(light);
   hasher.add(options.basis).add(options.paper).add(options.layerRidge).add(options.lightRidge);
@@ -108,15 +124,18 @@ Hash128 fitKey(const SetKeys& keys, const lpt::FitOptions& options) {
 }
 
 SetKeys setKeys(const project::Project& project, const PatchHash& patch, trace::LayerSet set,
-                std::span<const glm::dvec3> lights, Sampler sampler) {
+                std::span<const glm::dvec3> lights, const GroundSettings& settings) {
+  const Sampler sampler = settings.sampler;
   SetKeys keys;
   keys.hits = hitsKey(patch.shape, set, project.sampling, sampler);
-  for (const glm::dvec3& light : lights) {
+  const auto luminanceKey = [&](const glm::dvec3& light) {
     Hasher hasher = start("luminance", kLuminanceVersion);
     hasher.add(keys.hits).add(light.x).add(light.y).add(light.z);
     if (sampler == Sampler::Passes) hasher.add(project.sampling.sliceResolution).add(project.sampling.slices);
-    keys.luminance.push_back(hasher.finish());
-  }
+    return hasher.finish();
+  };
+  for (const glm::dvec3& light : lights) keys.luminance.push_back(luminanceKey(light));
+  if (settings.sun) keys.sunLuminance = luminanceKey(*settings.sun);
   Hasher visibility = start("visibility", kVisibilityVersion);
   visibility.add(keys.hits).add(project.sampling.visibilityDirections).add(project.sampling.seed);
   if (sampler == Sampler::Passes) {
@@ -127,7 +146,9 @@ SetKeys setKeys(const project::Project& project, const PatchHash& patch, trace::
   keys.visibility = visibility.finish();
   Hasher surface = start("surface", kSurfaceVersion);
   keys.surface = surface.add(keys.hits).add(set == trace::LayerSet::Ground ? patch.soil : patch.colour).finish();
-  keys.fit = fitKey(keys, fitOptionsOf(project, set));
+  const lpt::FitOptions options = fitOptionsOf(project, set);
+  if (lpt::needsSun(options.basis)) keys.representation = representationKey(keys, patch.shape, options);
+  keys.fit = fitKey(keys, options, settings.sun);
   return keys;
 }
 
@@ -152,7 +173,8 @@ Hash128 stackKey(const GroundKeys& keys, const project::Project& project, trace:
   const SetKeys& inputs = keys.of(set);
   Hasher hasher = start("stack", kStackVersion);
   hasher.add(inputs.fit).add(inputs.surface).add(inputs.visibility);
-  hasher.add(project.fit.bits).add(project.fit.clampQuantile);
+  const lpt::FitOptions options = stackOptionsOf(project, set);
+  hasher.add(options.bits).add(options.clampQuantile);
   if (!isBlade(set)) hasher.add(keys.tiles);
   return hasher.finish();
 }
@@ -161,7 +183,16 @@ Hash128 stackKey(const GroundKeys& keys, const project::Project& project, trace:
 
 lpt::FitOptions fitOptionsOf(const project::Project& project, trace::LayerSet set) {
   lpt::FitOptions options = project.fit;
-  if (set == trace::LayerSet::Ground) options.basis = lpt::Basis::Ptm;
+  const bool layered = options.basis == lpt::Basis::Lpt || options.basis == lpt::Basis::Clustered;
+  if (set == trace::LayerSet::Ground && layered) options.basis = lpt::Basis::Ptm;
+  return options;
+}
+
+lpt::FitOptions stackOptionsOf(const project::Project& project, trace::LayerSet set) {
+  lpt::FitOptions options = fitOptionsOf(project, set);
+  if (!lpt::needsSun(options.basis)) return options;
+  options.bits = 16;
+  options.clampQuantile = 0.0;
   return options;
 }
 
@@ -172,7 +203,7 @@ bool sameGroundValues(const project::Project& a, const project::Project& b) {
   };
   return a.folder == b.folder && a.patch.sideM == b.patch.sideM && a.patch.seed == b.patch.seed &&
          a.patch.soil == b.patch.soil && a.lights == b.lights && a.sampling == b.sampling && a.fit == b.fit &&
-         a.tiles == b.tiles &&
+         a.tiles == b.tiles && (!lpt::needsSun(a.fit.basis) || a.sun == b.sun) &&
          std::equal(a.patch.plants.begin(), a.patch.plants.end(), b.patch.plants.begin(), b.patch.plants.end(),
                     samePlant);
 }
@@ -185,11 +216,11 @@ Result<GroundKeys> groundKeys(const project::Project& project, std::span<const g
   keys.plants = std::move(patch.plants);
   keys.map = mapKey(project.tiles);
   for (const trace::LayerSet set : trace::kAllLayerSets) {
-    keys.sets[static_cast<std::size_t>(set)] = setKeys(project, patch, set, lights, settings.sampler);
+    keys.sets[static_cast<std::size_t>(set)] = setKeys(project, patch, set, lights, settings);
   }
   lpt::FitOptions seam = project.fit;
   seam.basis = lpt::Basis::Lpt;
-  keys.seamFit = fitKey(keys.of(trace::LayerSet::Slices), seam);
+  keys.seamFit = fitKey(keys.of(trace::LayerSet::Slices), seam, {});
   keys.tiles = tilesKey(keys, project, settings.layout);
   Hasher ground = start("ground", kGroundVersion);
   for (const trace::LayerSet set : trace::kAllLayerSets) {

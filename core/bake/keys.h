@@ -7,6 +7,7 @@
 #include "trace/layers.h"
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct SetKeys {
   std::vector<base::Hash128> luminance;  ///< one a light, by its direction
   base::Hash128 visibility;
   base::Hash128 surface;
+  base::Hash128 sunLuminance;    ///< of the sun, where the basis needs one (lpt::needsSun)
+  base::Hash128 representation;  ///< of such a basis, whatever the sun
   base::Hash128 fit;
   base::Hash128 stack;
 };
@@ -38,8 +41,10 @@ struct GroundKeys {
   const SetKeys& of(trace::LayerSet set) const { return sets[static_cast<std::size_t>(set)]; }
 };
 
-/// The fit options of one layer set: the soil is a single layer and always PTM.
+/// The fit options of one layer set: the soil is a single layer, of which LPT in any form is a PTM.
 lpt::FitOptions fitOptionsOf(const project::Project& project, trace::LayerSet set);
+/// How the same set's stack is quantised: what was relit for one sun keeps 16 bits, its own rounding is in it already.
+lpt::FitOptions stackOptionsOf(const project::Project& project, trace::LayerSet set);
 
 /// Whether two projects say the same about the ground, so that their grounds are the same as long as their asset files
 /// are. Reads no file and hashes nothing: for a thread that must not wait. Two that differ may still give equal
@@ -53,6 +58,7 @@ enum class Sampler { Rays, Passes };
 struct GroundSettings {
   Sampler sampler = Sampler::Rays;
   std::vector<glm::ivec2> layout;  ///< diamonds to keep, in slabs of blades; empty: they are chosen
+  std::optional<glm::dvec3> sun;   ///< unit, z >= 0; where the basis needs one
 };
 
 /// Reads asset files (errors: one is missing or unreadable), bakes nothing.

@@ -7,7 +7,7 @@ namespace {
 
 /// Every array as long as the stack's sizes say, so that a renderer may index without asking.
 bool consistent(const lpt::LayerStack& stack) {
-  const std::size_t sets = stack.basis == lpt::Basis::Lpt ? stack.columnCount() : stack.texelCount();
+  const std::size_t sets = stack.itemCount();
   const auto perSet = static_cast<std::size_t>(stack.channels * stack.perColumn());
   const std::size_t texels = stack.texelCount();
   return (stack.bits == 8 || stack.bits == 16) && stack.ranges.size() == perSet &&

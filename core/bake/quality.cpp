@@ -3,6 +3,7 @@
 #include "scene/lights.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace sward::bake {
 namespace {
@@ -53,6 +54,29 @@ void divideAtMost(project::Project& project, int most) {
 }
 
 }  // namespace
+
+bool setSliceResolution(project::Project& project, int resolution) {
+  const int now = project.sampling.sliceResolution;
+  if (resolution == now) return true;
+  if (resolution < now) {
+    const int divisor = now / std::max(resolution, 1);
+    if (resolution * divisor != now || !divides(project, divisor)) return false;
+    divide(project, divisor);
+    return true;
+  }
+  const int factor = resolution / std::max(now, 1);
+  if (now * factor != resolution) return false;
+  project::Project larger = project;
+  trace::SamplingOptions& s = larger.sampling;
+  s.sliceResolution *= factor;
+  s.bladeWidth *= factor;
+  s.bladeHeight *= factor;
+  larger.tiles.resolution *= factor;
+  larger.tiles.overlap *= factor;
+  if (!project::requireValid(larger).ok()) return false;
+  project = std::move(larger);
+  return true;
+}
 
 const char* qualityName(Quality quality) {
   switch (quality) {

@@ -14,4 +14,8 @@ const char* qualityName(Quality quality);
 /// stays valid.
 project::Project atQuality(const project::Project& project, Quality quality);
 
+/// Samples the patch with that many texels a side, a power of two times the project's: blades and tiles follow, so that
+/// tiles stay as large in metres. False, and nothing is changed, where sizes would not stay whole or valid.
+bool setSliceResolution(project::Project& project, int resolution);
+
 }  // namespace sward::bake

@@ -1,6 +1,7 @@
-#include "bake/session.h"
+#include "bake/session_node.h"
 
 #include "bake/plants.h"
+#include "bake/payload.h"
 #include "bake/soil.h"
 #include "base/check.h"
 
@@ -12,56 +13,6 @@ namespace {
 
 using trace::LayerSet;
 
-/// Bytes in memory, about; what is not listed counts as its payload.
-std::uint64_t bytesOf(const trace::LayerSurface& surface) {
-  return (surface.reflectance.size() + surface.transmittance.size()) * sizeof(glm::vec3);
-}
-std::uint64_t bytesOf(const trace::LayerHits& hits) {
-  return hits.hits.size() * sizeof(trace::Hit) + hits.texels() * 5 + hits.columnStart.size() * 4;
-}
-std::uint64_t bytesOf(const trace::LayerLuminance& luminance) {
-  return luminance.reflected.size() * 2 * sizeof(float);
-}
-std::uint64_t bytesOf(const trace::LayerVisibility& visibility) {
-  return visibility.visibility.size() * 3 * sizeof(float);
-}
-std::uint64_t bytesOf(const lpt::Fit& fit) {
-  return (fit.coefficients.size() + fit.layerWeight.size()) * sizeof(float) +
-         static_cast<std::uint64_t>(fit.columns) * 13;
-}
-std::uint64_t bytesOf(const lpt::LayerStack& stack) {
-  return stack.totalBytes();
-}
-std::uint64_t bytesOf(const Inspection& inspection) {
-  std::uint64_t bytes = 0;
-  const auto add = [&](const StackInspection& stack) {
-    bytes += stack.condition.size() + stack.rank.size() + stack.weight.size() * sizeof(float) + stack.visibility.size();
-  };
-  add(inspection.slices);
-  add(inspection.soil);
-  for (const StackInspection& blade : inspection.blades) add(blade);
-  return bytes;
-}
-std::uint64_t bytesOf(const tiles::TileSet& set) {
-  return set.owner.size() + set.tiles.size() * 12;
-}
-std::uint64_t bytesOf(const tiles::TileMap& map) {
-  return map.tiles.size();
-}
-std::uint64_t bytesOf(const mesh::Model& model) {
-  return model.positions.size() * 60 + model.triangles.size() * 16;
-}
-std::uint64_t bytesOf(const scene::Patch& patch) {
-  std::uint64_t bytes = patch.instances.size() * sizeof(scene::Instance);
-  for (const auto& model : patch.models) bytes += bytesOf(*model);
-  return bytes;
-}
-std::uint64_t bytesOf(const GroundBake& ground) {
-  std::uint64_t bytes = bytesOf(ground.slices) + bytesOf(ground.soil) + ground.map.tiles.size();
-  for (const lpt::LayerStack& blade : ground.blades) bytes += bytesOf(blade);
-  return bytes;
-}
-
 /// What the disk would give back. Light is stored in 16 bits; a fit must not depend on where its samples came from.
 template <typename T>
 T asStored(const T& value) {
@@ -72,6 +23,9 @@ T asStored(const T& value) {
 
 std::string lightName(LayerSet set, std::size_t light) {
   return std::string(trace::layerSetName(set)) + ", light " + std::to_string(light + 1);
+}
+std::string sunName(LayerSet set) {
+  return std::string(trace::layerSetName(set)) + ", sun";
 }
 
 }  // namespace
@@ -111,6 +65,10 @@ void Session::plan() {
     planNode("visibility", name, covered * m_project.sampling.visibilityDirections);
     for (std::size_t light = 0; light < m_lights.size(); ++light) planNode("luminance", lightName(set, light), covered);
     planNode("fit", name, 0.2 * rays);
+    if (lpt::needsSun(fitOptionsOf(m_project, set).basis)) {
+      planNode("representation", name, 0.2 * rays);
+      planNode("luminance", sunName(set), covered);
+    }
     if (set == LayerSet::Slices && m_project.fit.basis != lpt::Basis::Lpt) planNode("fit", "seams", 0.2 * rays);
     planNode("surface", name, 0.2 * covered);
     if (set == LayerSet::Slices) planNode("tiles", "", 1.0);
@@ -143,84 +101,6 @@ JobContext Session::jobOf(std::size_t node) const {
   return job;
 }
 
-template <typename T>
-std::shared_ptr<const T> Session::findOnDisk(const std::string& kind, const base::Hash128& key, Keep keep,
-                                             NodeReport& report) {
-  if constexpr (requires(base::ByteReader & in, T & value) { load(in, value); }) {
-    if (!m_disk) return nullptr;
-    const auto payload = m_disk->get(kind, key);
-    auto value = payload ? fromPayload<T>(*payload) : std::nullopt;
-    if (!value) return nullptr;
-    report.state = NodeReport::State::FromDisk;
-    report.bytes = payload->size();
-    auto shared = std::make_shared<const T>(std::move(*value));
-    m_held[key] = shared;
-    if (keep == Keep::MemoryAndDisk) m_memory.put(key, shared, bytesOf(*shared));
-    return shared;
-  }
-  return nullptr;
-}
-
-template <typename T>
-std::shared_ptr<const T> Session::find(const std::string& kind, const base::Hash128& key, Keep keep,
-                                       NodeReport& report) {
-  if (auto held = m_held[key].lock()) return std::static_pointer_cast<const T>(held);
-  if (keep == Keep::Memory || keep == Keep::MemoryAndDisk) {
-    if (auto value = m_memory.get<T>(key)) {
-      if (report.state == NodeReport::State::Skipped) report.state = NodeReport::State::FromMemory;
-      m_held[key] = value;
-      return value;
-    }
-  }
-  if (keep == Keep::Disk || keep == Keep::MemoryAndDisk) return findOnDisk<T>(kind, key, keep, report);
-  return nullptr;
-}
-
-template <typename T>
-void Session::remember(const std::string& kind, const base::Hash128& key, Keep keep, const Shared<T>& value,
-                       NodeReport& report) {
-  m_held[key] = value;
-  report.bytes = bytesOf(*value);
-  if constexpr (requires(base::ByteWriter & out) { save(out, *value); }) {
-    if (m_disk && (keep == Keep::Disk || keep == Keep::MemoryAndDisk)) {
-      const std::vector<std::byte> payload = payloadOf(*value);
-      report.bytes = payload.size();
-      if (const auto stored = m_disk->put(kind, key, payload); !stored.ok()) {
-        // The result is still good; only the next run has to make it again. One message is enough.
-        if (!std::exchange(m_storeFailed, true)) m_report.warnings.push_back(stored.error().text());
-      }
-    }
-  }
-  if (keep == Keep::Memory || keep == Keep::MemoryAndDisk) m_memory.put(key, value, bytesOf(*value));
-}
-
-template <typename T, typename Make>
-Result<std::shared_ptr<const T>> Session::node(const std::string& kind, const std::string& what,
-                                               const base::Hash128& key, Keep keep, const Make& make) {
-  if (m_job.cancelled()) return Error::cancelled();
-  const std::size_t index = indexOf(kind, what);
-  const auto start = Clock::now();
-  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-  if (auto found = find<T>(kind, key, keep, m_report.nodes[index])) {
-    m_report.nodes[index].seconds += elapsed();
-    m_childSeconds += elapsed();
-    return found;
-  }
-  const double outerChildren = std::exchange(m_childSeconds, 0.0);
-  Result<T> made = make(jobOf(index));
-  if (!made.ok()) return std::move(made).error();
-  // Loops that were cancelled leave ranges out without saying so: such a result must never be kept.
-  if (m_job.cancelled()) return Error::cancelled();
-  NodeReport& report = m_report.nodes[index];
-  report.state = NodeReport::State::Baked;
-  auto value = std::make_shared<const T>(std::move(made).value());
-  remember<T>(kind, key, keep, value, report);
-  const double seconds = elapsed();
-  report.seconds += seconds - m_childSeconds;
-  m_childSeconds = outerChildren + seconds;
-  return value;
-}
-
 Result<std::shared_ptr<const scene::Patch>> Session::patch() {
   // Colours are part of the models: a patch is the same only when both keys are.
   base::Hasher key;
@@ -244,7 +124,7 @@ Result<std::shared_ptr<const mesh::Model>> Session::model(std::size_t plant, int
   }
   SWARD_ASSIGN(mesh::Model made, plantModel(m_project, plant, variant));
   auto shared = std::make_shared<const mesh::Model>(std::move(made));
-  if (remembered) m_memory.put(key, shared, bytesOf(*shared));
+  if (remembered) m_memory.put(key, shared, memoryBytes(*shared));
   return shared;
 }
 
@@ -269,8 +149,10 @@ Result<const trace::CanopyLight*> Session::canopy() {
     SWARD_ASSIGN(const trace::TriangleField* triangles, field());
     const trace::SamplingOptions& s = m_project.sampling;
     // Voxels of two by two columns: finer ones leave single blades apart, which cast no shadow in a medium.
-    m_canopy = std::make_unique<trace::CanopyLight>(*triangles, std::max(s.sliceResolution / 2, 1), s.slices, m_lights,
-                                                    JobContext{m_job.stop, {}, m_job.threads});
+    std::vector<glm::dvec3> directions = m_lights;
+    if (m_settings.sun) directions.push_back(*m_settings.sun);
+    m_canopy = std::make_unique<trace::CanopyLight>(*triangles, std::max(s.sliceResolution / 2, 1), s.slices,
+                                                    directions, JobContext{m_job.stop, {}, m_job.threads});
     if (m_job.cancelled()) return Error::cancelled();
   }
   return m_canopy.get();
@@ -334,7 +216,8 @@ Result<trace::LayerLuminance> Session::makeLuminance(LayerSet set, std::size_t l
     return trace::luminanceOf(*found, *arrives, light);
   }
   SWARD_ASSIGN(const trace::PatchScene* traced, scene());
-  SWARD_ASSIGN(const trace::LayerLuminance sampled, trace::sampleLuminance(*traced, *found, m_lights[light], job));
+  const glm::dvec3& toward = light < m_lights.size() ? m_lights[light] : *m_settings.sun;
+  SWARD_ASSIGN(const trace::LayerLuminance sampled, trace::sampleLuminance(*traced, *found, toward, job));
   return asStored(sampled);
 }
 
@@ -348,62 +231,23 @@ Result<std::shared_ptr<const trace::LayerLuminance>> Session::luminance(LayerSet
                                      [&](const JobContext& job) { return makeLuminance(set, light, job); });
 }
 
-Result<lpt::Fit> Session::makeFit(LayerSet set, const lpt::FitOptions& options, const JobContext& job) {
-  SWARD_ASSIGN(const auto found, hits(set));
-  SWARD_ASSIGN(const auto seen, visibility(set));
-  std::vector<std::shared_ptr<const trace::LayerLuminance>> lit;
-  for (std::size_t light = 0; light < m_lights.size(); ++light) {
-    SWARD_ASSIGN(auto one, luminance(set, light));
-    lit.push_back(std::move(one));
-  }
-  std::vector<float> coverage(found->texels());
-  for (std::size_t t = 0; t < coverage.size(); ++t) coverage[t] = found->coverage(t);
-
-  lpt::FitInput input;
-  input.columns = found->shape.columns();
-  input.layers = found->shape.layers;
-  input.columnStart = found->columnStart;
-  input.layer = found->layer;
-  input.coverage = coverage;
-  input.visibility = seen->visibility;
-  input.visibilityDirections = m_project.sampling.visibilityDirections;
-  input.lights = m_lights;
-  input.channels = set == LayerSet::Ground ? 1 : 2;
-  for (const auto& one : lit) input.samples.emplace_back(one->reflected);
-  for (std::size_t light = 0; light < lit.size() && input.channels == 2; ++light) {
-    input.samples.emplace_back(lit[light]->transmitted);
-  }
-  SWARD_ASSIGN(lpt::Fit fitted, lpt::fit(input, options, job));
-  if (m_job.cancelled()) return Error::cancelled();
-  lpt::fillEmpty(fitted, found->shape.width, found->shape.height, true);
-  return fitted;
+Result<std::shared_ptr<const trace::LayerLuminance>> Session::sunLuminance(LayerSet set) {
+  return node<trace::LayerLuminance>("luminance", sunName(set), m_keys.of(set).sunLuminance, Keep::WhileHeld,
+                                     [&](const JobContext& job) { return makeLuminance(set, m_lights.size(), job); });
 }
 
-Result<std::shared_ptr<const lpt::Fit>> Session::fitWith(LayerSet set, const lpt::FitOptions& options,
-                                                         const std::string& what, const base::Hash128& key) {
-  return node<lpt::Fit>("fit", what, key, keepTraced(),
-                        [&](const JobContext& job) { return makeFit(set, options, job); });
-}
-
-Result<std::shared_ptr<const lpt::Fit>> Session::fit(LayerSet set) {
-  return fitWith(set, fitOptionsOf(m_project, set), trace::layerSetName(set), m_keys.of(set).fit);
-}
-
-Result<std::shared_ptr<const lpt::Fit>> Session::seamFit() {
-  if (m_project.fit.basis == lpt::Basis::Lpt) return fit(LayerSet::Slices);
-  lpt::FitOptions options = m_project.fit;
-  options.basis = lpt::Basis::Lpt;
-  return fitWith(LayerSet::Slices, options, "seams", m_keys.seamFit);
+Result<std::vector<tiles::SeamColumn>> Session::seamColumns() {
+  SWARD_ASSIGN(const auto fitted, seamFit());
+  SWARD_ASSIGN(const auto found, hits(LayerSet::Slices));
+  SWARD_ASSIGN(const auto shaded, surface(LayerSet::Slices));
+  const trace::LayerVisibility unused;
+  return bake::seamColumns({*found, *shaded, unused, *fitted});
 }
 
 Result<std::shared_ptr<const tiles::TileSet>> Session::tileSet() {
   return node<tiles::TileSet>("tiles", "", m_keys.tiles, Keep::MemoryAndDisk,
                               [&](const JobContext& job) -> Result<tiles::TileSet> {
-                                SWARD_ASSIGN(const auto fitted, seamFit());
-                                SWARD_ASSIGN(const auto found, hits(LayerSet::Slices));
-                                SWARD_ASSIGN(const auto shaded, surface(LayerSet::Slices));
-                                const trace::LayerVisibility unused;
-                                const auto columns = seamColumns({*found, *shaded, unused, *fitted});
+                                SWARD_ASSIGN(const auto columns, seamColumns());
                                 const int resolution = m_project.sampling.sliceResolution;
                                 const int pitch = resolution / m_project.sampling.blades;
                                 std::vector<glm::ivec2> diamonds = m_settings.layout;
@@ -429,7 +273,7 @@ Result<std::shared_ptr<const lpt::LayerStack>> Session::stack(LayerSet set) {
                                    input = patchStack(layers, job);
                                  }
                                  if (m_job.cancelled()) return Error::cancelled();
-                                 return lpt::quantise(input, m_project.fit, !tiled, job);
+                                 return lpt::quantise(input, stackOptionsOf(m_project, set), !tiled, job);
                                });
 }
 

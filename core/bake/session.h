@@ -17,6 +17,8 @@
 
 namespace sward::bake {
 
+struct HeldRepresentation;
+
 /// One walk of the graph, from the ground down to what is missing. Lives for one call of Baker::ground.
 class Session {
  public:
@@ -34,6 +36,8 @@ class Session {
 
   Result<std::shared_ptr<const GroundBake>> ground();
   Result<std::shared_ptr<const Inspection>> inspection();
+  /// What the seams of the tiles compare.
+  Result<std::vector<tiles::SeamColumn>> seamColumns();
   BakeReport takeReport();
 
  private:
@@ -77,11 +81,24 @@ class Session {
   Result<Shared<trace::LayerSurface>> surface(trace::LayerSet set);
   Result<Shared<trace::LayerVisibility>> visibility(trace::LayerSet set);
   Result<Shared<trace::LayerLuminance>> luminance(trace::LayerSet set, std::size_t light);
+  Result<Shared<trace::LayerLuminance>> sunLuminance(trace::LayerSet set);
+  /// What fits of a set read, with all that it points to.
+  struct LightSamples {
+    Shared<trace::LayerHits> hits;
+    Shared<trace::LayerVisibility> visibility;
+    std::vector<Shared<trace::LayerLuminance>> lit;
+    std::vector<float> coverage;
+    lpt::FitInput input;
+  };
+  Result<LightSamples> lightSamples(trace::LayerSet set, bool withLights);
   Result<Shared<lpt::Fit>> fit(trace::LayerSet set);
   Result<Shared<lpt::Fit>> seamFit();
   Result<Shared<lpt::Fit>> fitWith(trace::LayerSet set, const lpt::FitOptions& options, const std::string& what,
                                    const base::Hash128& key);
   Result<lpt::Fit> makeFit(trace::LayerSet set, const lpt::FitOptions& options, const JobContext& job);
+  Result<lpt::Fit> meanOfLights(const LightSamples& samples) const;
+  Result<lpt::Fit> sunResponses(trace::LayerSet set, const lpt::FitOptions& options, const JobContext& job);
+  Result<Shared<HeldRepresentation>> representation(trace::LayerSet set, const lpt::FitOptions& options);
   Result<Shared<tiles::TileSet>> tileSet();
   Result<Shared<lpt::LayerStack>> stack(trace::LayerSet set);
   Result<Shared<tiles::TileMap>> map();

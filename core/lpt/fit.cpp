@@ -1,5 +1,6 @@
 #include "lpt/fit.h"
 
+#include "base/check.h"
 #include "base/parallel.h"
 #include "lpt/fit_system.h"
 
@@ -76,7 +77,7 @@ Fit emptyFit(const FitInput& in, const FitOptions& options) {
   fit.columns = in.columns;
   fit.layers = in.layers;
   fit.channels = in.channels;
-  fit.perColumn = options.basis == Basis::Lpt ? kLptCoefficients : kPtmCoefficients * in.layers;
+  fit.perColumn = stackCoefficients(options.basis) * (options.basis == Basis::Lpt ? 1 : in.layers);
   const auto columns = static_cast<std::size_t>(in.columns);
   fit.coefficients.assign(columns * static_cast<std::size_t>(in.channels) * static_cast<std::size_t>(fit.perColumn),
                           0.0f);
@@ -90,10 +91,15 @@ Fit emptyFit(const FitInput& in, const FitOptions& options) {
 
 }  // namespace
 
-Result<Fit> fit(const FitInput& input, const FitOptions& options, const JobContext& job) {
+Result<void> detail::checkFit(const FitInput& input, const FitOptions& options) {
   SWARD_TRY(checkShape(input));
   SWARD_TRY(checkSamples(input));
-  SWARD_TRY(checkOptions(options));
+  return checkOptions(options);
+}
+
+Result<Fit> fit(const FitInput& input, const FitOptions& options, const JobContext& job) {
+  SWARD_CHECK(options.basis == Basis::Lpt || options.basis == Basis::Ptm);
+  SWARD_TRY(detail::checkFit(input, options));
   // A block's moments (128 columns of 16 texels: 100 KB a channel) stay in the second-level cache.
   constexpr std::size_t kGrain = 128;
   Fit result = emptyFit(input, options);
@@ -130,10 +136,10 @@ void save(base::ByteWriter& out, const Fit& fit) {
 namespace {
 
 bool consistent(const Fit& fit) {
-  if (fit.basis > Basis::Ptm || fit.columns < 0 || fit.layers < 1 || fit.layers > 256) return false;
+  if (stackCoefficients(fit.basis) == 0 || fit.columns < 0 || fit.layers < 1 || fit.layers > 256) return false;
   if (fit.channels < 1 || fit.channels > 256) return false;
   const auto columns = static_cast<std::size_t>(fit.columns);
-  const std::size_t layerWeights = fit.basis == Basis::Ptm ? columns * static_cast<std::size_t>(fit.layers) : 0;
+  const std::size_t layerWeights = fit.basis != Basis::Lpt ? columns * static_cast<std::size_t>(fit.layers) : 0;
   return fit.coefficients.size() ==
              columns * static_cast<std::size_t>(fit.channels) * static_cast<std::size_t>(fit.perColumn) &&
          fit.rank.size() == columns && fit.condition.size() == columns && fit.weight.size() == columns &&
@@ -157,8 +163,8 @@ bool load(base::ByteReader& in, Fit& fit) {
   in.array(read.path);
   in.array(read.layerWeight);
   if (!in.ok()) return false;
-  if (read.layers > 0 && read.layers <= 256 && read.basis == Basis::Ptm)
-    read.perColumn = kPtmCoefficients * read.layers;
+  if (read.layers > 0 && read.layers <= 256 && read.basis != Basis::Lpt)
+    read.perColumn = stackCoefficients(read.basis) * read.layers;
   if (!consistent(read)) return false;
   fit = std::move(read);
   return true;

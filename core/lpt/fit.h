@@ -50,7 +50,8 @@ struct Fit {
   std::vector<float> condition;
   std::vector<float> weight;  ///< summed weight of the column's texels; 0 where empty
   std::vector<FitPath> path;  ///< PTM: Orthogonal when any of its layers is
-  /// PTM only: weight of each layer texel, [column][layer], 0 where there is none; empty for LPT.
+  /// PTM (and what else has its own coefficients a layer texel): weight of each layer texel, [column][layer], 0 where
+  /// there is none; empty for LPT.
   std::vector<float> layerWeight;
 
   std::span<const float> column(int column, int channel) const {
@@ -67,12 +68,18 @@ struct Fit {
 /// for a paper's LPT. Texels without a positive, finite weight count as absent. A sample that is not finite leaves out
 /// its row (texel and light) in every channel; the result never holds a NaN. Columns without a row are empty: zero
 /// coefficients. Same bytes on any number of threads. Errors: no lights or one that is not finite, lengths or layers
-/// that do not match, ridges below 0; Error::cancelled().
+/// that do not match, ridges below 0; Error::cancelled(). Throws ContractError for a basis other than Lpt and Ptm:
+/// represent() has them all.
 Result<Fit> fit(const FitInput& input, const FitOptions& options, const JobContext& job);
 
+/// One response a texel as a fit of basis Constant: the light of one sun, or a mean over lights.
+/// responses[channel][texel] as in `input`, whose samples and lights are not read; values that are not finite count as
+/// absent.
+Fit constantFit(const FitInput& input, std::span<const std::span<const float>> responses);
+
 /// Fills empty columns from their neighbours on a periodic or bordered width x height image (pull-push, weighted by the
-/// columns' weight), so that filtering across an outline is sound. For PTM every layer image is filled by itself,
-/// weighted by layerWeight; a layer without any texel stays zero.
+/// columns' weight), so that filtering across an outline is sound. Of a basis with coefficients a layer texel every
+/// layer image is filled by itself, weighted by layerWeight; a layer without any texel stays zero.
 void fillEmpty(Fit& fit, int width, int height, bool periodic);
 
 /// Cache payload. load returns false on damaged data and leaves `fit` as it was.

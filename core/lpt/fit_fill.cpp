@@ -1,7 +1,6 @@
 #include "lpt/fit.h"
 
 #include "base/check.h"
-#include "lpt/polynomial.h"
 #include "lpt/pull_push.h"
 
 #include <cstddef>
@@ -11,23 +10,25 @@ namespace sward::lpt {
 namespace {
 
 /// Fills the coefficients of one layer image; they lie in the fit's own order, channels apart.
-void fillPtmLayer(Fit& fit, std::size_t layer, int width, int height, bool periodic) {
+void fillLayer(Fit& fit, std::size_t layer, int width, int height, bool periodic) {
   const auto channels = static_cast<std::size_t>(fit.channels);
   const auto layers = static_cast<std::size_t>(fit.layers);
   const auto columns = static_cast<std::size_t>(fit.columns);
-  std::vector<float> values(columns * channels * 6), weight(columns);
+  const int perTexel = fit.perColumn / fit.layers;
+  const auto n = static_cast<std::size_t>(perTexel);
+  std::vector<float> values(columns * channels * n), weight(columns);
   const auto forEach = [&](const auto& body) {
     for (std::size_t i = 0; i < columns; ++i) {
       for (std::size_t c = 0; c < channels; ++c) {
-        for (std::size_t j = 0; j < 6; ++j) {
-          body(values[(i * channels + c) * 6 + j], fit.coefficients[((i * channels + c) * layers + layer) * 6 + j]);
+        for (std::size_t j = 0; j < n; ++j) {
+          body(values[(i * channels + c) * n + j], fit.coefficients[((i * channels + c) * layers + layer) * n + j]);
         }
       }
     }
   };
   for (std::size_t i = 0; i < columns; ++i) weight[i] = fit.layerWeight[i * layers + layer];
   forEach([](float& mine, float& theirs) { mine = theirs; });
-  detail::pullPush(values, weight, width, height, fit.channels * kPtmCoefficients, periodic);
+  detail::pullPush(values, weight, width, height, fit.channels * perTexel, periodic);
   forEach([](float& mine, float& theirs) { theirs = mine; });
 }
 
@@ -42,7 +43,7 @@ void fillEmpty(Fit& fit, int width, int height, bool periodic) {
     return;
   }
   for (std::size_t layer = 0; layer < static_cast<std::size_t>(fit.layers); ++layer) {
-    fillPtmLayer(fit, layer, width, height, periodic);
+    fillLayer(fit, layer, width, height, periodic);
   }
 }
 

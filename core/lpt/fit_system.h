@@ -12,6 +12,9 @@
 /// Parts of fit() that its files share; not for other folders.
 namespace sward::lpt::detail {
 
+/// The errors that fit() documents.
+Result<void> checkFit(const FitInput& input, const FitOptions& options);
+
 /// Singular values of the weighted rows below this share of the largest count as zero: what they stand for would be the
 /// rounding of float samples (6e-8), magnified a million times.
 inline constexpr double kRankTolerance = 1e-6;

@@ -16,71 +16,18 @@ std::size_t product(int a, int b, int c) {
   return static_cast<std::size_t>(a) * static_cast<std::size_t>(b) * static_cast<std::size_t>(c);
 }
 
-void checkInput(const LayerStackInput& in, const FitOptions& options) {
+void checkInput(const LayerStackInput& in) {
   SWARD_CHECK(in.width >= 0 && in.height >= 0 && in.images >= 0 && in.layers >= 1 && in.channels >= 1);
-  SWARD_CHECK(options.bits == 8 || options.bits == 16);
-  SWARD_CHECK(options.clampQuantile >= 0.0 && options.clampQuantile < 0.5);
   const std::size_t columns = product(in.width, in.height, in.images);
   const std::size_t texels = columns * static_cast<std::size_t>(in.layers);
-  const std::size_t sets = in.basis == Basis::Lpt ? columns * kLptCoefficients : texels * kPtmCoefficients;
+  SWARD_CHECK_GT(stackCoefficients(in.basis), 0);
+  const std::size_t sets =
+      (in.basis == Basis::Lpt ? columns : texels) * static_cast<std::size_t>(stackCoefficients(in.basis));
   SWARD_CHECK_EQ(in.coefficients.size(), sets * static_cast<std::size_t>(in.channels));
   SWARD_CHECK_EQ(in.coverage.size(), texels);
   SWARD_CHECK_EQ(in.reflectance.size(), texels);
   SWARD_CHECK(in.transmittance.empty() || in.transmittance.size() == texels);
   SWARD_CHECK_EQ(in.sky.size(), texels);
-}
-
-double largestInteger(int bits) {
-  return bits == 8 ? 255.0 : 65535.0;
-}
-
-/// Range of one coefficient over all columns or texels: `step` floats apart from `first`.
-CoefficientRange findRange(std::span<const float> values, std::size_t first, std::size_t step, double quantile,
-                           int bits) {
-  std::vector<float> finite;
-  finite.reserve(values.size() / step + 1);
-  for (std::size_t i = first; i < values.size(); i += step) {
-    if (std::isfinite(values[i])) finite.push_back(values[i]);
-  }
-  if (finite.empty()) return {};
-  const auto cut = static_cast<std::ptrdiff_t>(quantile * static_cast<double>(finite.size()));
-  std::nth_element(finite.begin(), finite.begin() + cut, finite.end());
-  const float low = finite[static_cast<std::size_t>(cut)];
-  const std::ptrdiff_t top = static_cast<std::ptrdiff_t>(finite.size()) - 1 - cut;
-  std::nth_element(finite.begin(), finite.begin() + top, finite.end());
-  const float high = finite[static_cast<std::size_t>(top)];
-  const auto scale = static_cast<float>(largestInteger(bits) / (static_cast<double>(high) - static_cast<double>(low)));
-  // Infinite where the range is 0, or so narrow that float cannot tell: a constant.
-  if (!(high > low) || !std::isfinite(scale)) return {0.0f, -low};
-  return {scale, -low};
-}
-
-std::uint32_t quantised(float value, const CoefficientRange& range, double largest) {
-  if (range.scale == 0.0f || !std::isfinite(value)) return 0;
-  const double scaled =
-      static_cast<double>(range.scale) * (static_cast<double>(value) + static_cast<double>(range.base));
-  return static_cast<std::uint32_t>(std::floor(std::clamp(scaled, 0.0, largest) + 0.5));
-}
-
-void quantiseCoefficients(const LayerStackInput& in, const FitOptions& options, const JobContext& job,
-                          LayerStack& stack) {
-  const std::size_t step = static_cast<std::size_t>(in.channels) * static_cast<std::size_t>(stack.perColumn());
-  stack.ranges.assign(step, {});
-  base::parallelFor(job, step, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t j = begin; j < end; ++j) {
-      stack.ranges[j] = findRange(in.coefficients, j, step, options.clampQuantile, options.bits);
-    }
-  });
-  const std::size_t bytes = options.bits == 8 ? 1 : 2;
-  const double largest = largestInteger(options.bits);
-  stack.coefficients.assign(in.coefficients.size() * bytes, 0);
-  base::parallelFor(job, in.coefficients.size() / step, 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin * step; i < end * step; ++i) {
-      const std::uint32_t q = quantised(in.coefficients[i], stack.ranges[i % step], largest);
-      stack.coefficients[i * bytes] = static_cast<std::uint8_t>(q & 255u);
-      if (bytes == 2) stack.coefficients[i * 2 + 1] = static_cast<std::uint8_t>(q >> 8);
-    }
-  });
 }
 
 std::uint8_t unorm8(float value) {
@@ -146,7 +93,7 @@ class SurfaceImage {
 }  // namespace
 
 LayerStack quantise(const LayerStackInput& input, const FitOptions& options, bool periodic, const JobContext& job) {
-  checkInput(input, options);
+  checkInput(input);
   LayerStack stack;
   stack.basis = input.basis;
   stack.width = input.width;
@@ -155,7 +102,11 @@ LayerStack quantise(const LayerStackInput& input, const FitOptions& options, boo
   stack.layers = input.layers;
   stack.channels = input.channels;
   stack.bits = options.bits;
-  quantiseCoefficients(input, options, job, stack);
+  QuantisedSets sets = quantiseSets(
+      input.coefficients, static_cast<std::size_t>(input.channels) * static_cast<std::size_t>(stack.perColumn()),
+      options, job);
+  stack.ranges = std::move(sets.ranges);
+  stack.coefficients = std::move(sets.bytes);
   stack.surface.assign(stack.texelCount() * 4, 0);
   if (!input.transmittance.empty()) stack.transmission.assign(stack.texelCount() * 4, 255);
   stack.sky.assign(stack.texelCount() * 2, 0);
@@ -178,8 +129,7 @@ void dequantise(const LayerStack& stack, std::size_t columnOrTexel, int channel,
   for (std::size_t j = 0; j < count; ++j) {
     const std::uint8_t* stored = &stack.coefficients[(first + j) * bytes];
     const std::uint32_t q = bytes == 1 ? stored[0] : stored[0] + 256u * stored[1];
-    const CoefficientRange& range = stack.ranges[c * count + j];
-    out[j] = range.scale == 0.0f ? -range.base : static_cast<float>(q) / range.scale - range.base;
+    out[j] = stack.ranges[c * count + j].value(q);
   }
 }
 
@@ -188,6 +138,11 @@ namespace {
 /// max(f, 0) of one channel, in the order that the header gives.
 float response(const LayerStack& stack, std::size_t column, std::size_t texel, int layer, int channel, float lx,
                float ly) {
+  if (stack.basis == Basis::Constant) {
+    std::array<float, 1> b;
+    dequantise(stack, texel, channel, b);
+    return std::max(b[0], 0.0f);
+  }
   if (stack.basis == Basis::Ptm) {
     std::array<float, kPtmCoefficients> b;
     dequantise(stack, texel, channel, b);

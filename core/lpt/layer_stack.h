@@ -3,6 +3,7 @@
 #include "base/bytes.h"
 #include "lpt/fit.h"
 #include "lpt/options.h"
+#include "lpt/quantisation.h"
 
 #include <array>
 #include <cstdint>
@@ -17,13 +18,6 @@ namespace sward::lpt {
 inline constexpr int kReflected = 0;
 inline constexpr int kTransmitted = 1;
 
-/// b' = scale (b + base) (equation 7) is the stored integer, 0 to 255 or 65535; it is read back as b' / scale - base,
-/// in float. A constant coefficient has scale 0, is stored as 0 and read back as -base, exactly.
-struct CoefficientRange {
-  float scale = 0.0f;
-  float base = 0.0f;
-};
-
 /// Quantised layers, dense and ready to relight: `images` images (the tiles of a set, or 1) of width x height columns
 /// with `layers` layers. This is what is cached on disk, uploaded to the GPU, and counted in the report. Index of a
 /// column: column = (image * height + y) * width + x; of a layer texel: texel = ((image * layers + layer) * height + y)
@@ -33,9 +27,10 @@ struct LayerStack {
   int width = 0, height = 0, images = 0, layers = 0;
   int channels = 2;
   int bits = 8;
-  /// Ranges, one per channel and coefficient: [channel][10] for LPT, [channel][6] for PTM (shared by all layers).
+  /// Ranges, one per channel and coefficient: [channel][perColumn()], for PTM and Constant shared by all layers.
   std::vector<CoefficientRange> ranges;
-  /// LPT: [column][channel][10]; PTM: [texel][channel][6]. One byte each, or two (little-endian) for 16 bits.
+  /// LPT: [column][channel][10]; PTM: [texel][channel][6]; Constant: [texel][channel]. One byte each, or two
+  /// (little-endian) for 16 bits.
   std::vector<std::uint8_t> coefficients;
   /// RGBA8 per texel: square root of the linear reflectance (straight), coverage (linear).
   std::vector<std::uint8_t> surface;
@@ -48,9 +43,9 @@ struct LayerStack {
     return static_cast<std::size_t>(images) * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   }
   std::size_t texelCount() const { return columnCount() * static_cast<std::size_t>(layers); }
-  int perColumn() const {
-    return basis == Basis::Lpt ? 10 : 6;
-  }  ///< coefficients of one channel of a column (LPT) or texel (PTM)
+  int perColumn() const { return stackCoefficients(basis); }
+  /// Of what coefficients belong to: columns (LPT) or texels (PTM, Constant).
+  std::size_t itemCount() const { return basis == Basis::Lpt ? columnCount() : texelCount(); }
   std::size_t lightingBytes() const { return coefficients.size(); }
   std::size_t totalBytes() const { return coefficients.size() + surface.size() + transmission.size() + sky.size(); }
 };
@@ -59,7 +54,7 @@ struct LayerStack {
 struct LayerStackInput {
   Basis basis = Basis::Lpt;
   int width = 0, height = 0, images = 1, layers = 0, channels = 2;
-  std::vector<float> coefficients;       ///< [column][channel][10] or [texel][channel][6]
+  std::vector<float> coefficients;       ///< [column][channel][10], [texel][channel][6] or [texel][channel]
   std::vector<float> coverage;           ///< per texel
   std::vector<glm::vec3> reflectance;    ///< per texel; anything where coverage is 0
   std::vector<glm::vec3> transmittance;  ///< per texel, or empty

@@ -10,13 +10,13 @@ namespace {
 bool consistent(const LayerStack& stack) {
   constexpr int kLargestSide = 1 << 16;
   const auto within = [](int value, int low, int high) { return value >= low && value <= high; };
-  if (stack.basis > Basis::Ptm || (stack.bits != 8 && stack.bits != 16)) return false;
+  if (stackCoefficients(stack.basis) == 0 || (stack.bits != 8 && stack.bits != 16)) return false;
   if (!within(stack.width, 0, kLargestSide) || !within(stack.height, 0, kLargestSide)) return false;
   if (!within(stack.images, 0, kLargestSide) || !within(stack.layers, 1, 256) || !within(stack.channels, 1, 16)) {
     return false;
   }
   const std::size_t values = static_cast<std::size_t>(stack.channels) * static_cast<std::size_t>(stack.perColumn());
-  const std::size_t sets = stack.basis == Basis::Lpt ? stack.columnCount() : stack.texelCount();
+  const std::size_t sets = stack.itemCount();
   const std::size_t bytes = stack.bits == 8 ? 1 : 2;
   const std::size_t texels = stack.texelCount();
   return stack.ranges.size() == values && stack.coefficients.size() == sets * values * bytes &&

@@ -12,8 +12,19 @@ enum class Basis : std::uint8_t {
   Constant,   ///< one value a layer texel: the same under every light
   Clustered,  ///< the layers of a pixseries in FitOptions::clusters groups, ten coefficients each
   Hsh,        ///< hemispherical harmonics a layer texel (Gautron et al. 2004)
+  Sampled,    ///< nothing is fitted: light traced for the one sun, the yardstick of what a fit costs
   Marched  ///< unshadowed response times a transmittance marched through voxels (science.md section 1); needs no lights
 };
+
+/// Coefficients of one channel of a column (Lpt) or layer texel (Ptm, Constant): what stacks hold. 0 for other bases.
+constexpr int stackCoefficients(Basis basis) {
+  return basis == Basis::Lpt ? 10 : basis == Basis::Ptm ? 6 : basis == Basis::Constant ? 1 : 0;
+}
+
+/// Whether it is relit on the processor, for one sun at a time.
+constexpr bool needsSun(Basis basis) {
+  return stackCoefficients(basis) == 0;
+}
 
 /// What a fit minimises (LPT, without `paper`), with W = sum_i w_i over a column's texels, K lights, and f written in
 /// v = u - ubar, ubar the w-weighted mean of u:

@@ -48,6 +48,9 @@ inline constexpr std::array kMethods{Method{"constant", Basis::Constant, 8, fals
                                      Method{"hsh", Basis::Hsh, 8, false, 2},
                                      Method{"marched", Basis::Marched, 8, false, 2}};
 
+/// The method of that name, or null; "ptm16" is another name of "ptm".
+const Method* findMethod(std::string_view name);
+
 /// What a representation is made from: the samples of one layer set. All pointers and spans are the caller's and are
 /// not kept, but for `density`.
 struct RepresentationInput {

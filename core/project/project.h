@@ -4,6 +4,7 @@
 #include "lpt/options.h"
 #include "mesh/options.h"
 #include "render/options.h"
+#include "report/options.h"
 #include "scene/options.h"
 #include "tiles/options.h"
 #include "trace/options.h"
@@ -68,6 +69,7 @@ struct Project {
   scene::SunOptions sun;
   scene::SkyOptions sky;
   render::RenderOptions render;
+  report::AccuracyOptions accuracy;
   std::vector<scene::View> views;
   Output output;
   std::filesystem::path folder;  ///< where relative asset paths start; set by load, not saved, not compared by toJson

@@ -34,6 +34,9 @@ void describe(A& a, typename A::template Ref<Project> v) {
           of(Role::Shape).says("Sun", "Where the sun stands and how strong it is. Nothing is baked anew."));
   a.field("sky", v.sky, of(Role::Shape).says("Sky", "The air: clear or hazy. Nothing is baked anew."));
   a.field("render", v.render, of(Role::Shape).says("Drawing", "How the ground is drawn. Nothing is baked anew."));
+  a.field(
+      "accuracy", v.accuracy,
+      of(Role::Shape).says("Accuracy", "The error that pictures may have; the cheapest bake that keeps it is chosen."));
   a.field("views", v.views, range(0, 1000, "views").says("Views", "Named cameras."));
   a.field("output", v.output, of(Role::Shape).says("Picture", "Size of the picture that is rendered."));
 }

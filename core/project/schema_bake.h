@@ -120,6 +120,11 @@ void describe(A& a, typename A::template Ref<trace::SamplingOptions> v) {
 template <typename A>
 void describe(A& a, typename A::template Ref<lpt::FitOptions> v) {
   a.field("basis", v.basis, of(Role::Shape).says("Representation", "What is kept of how a texel answers light."));
+  a.field("clusters", v.clusters,
+          range(2, 4, "groups")
+              .steps(2)
+              .expert()
+              .says("Groups of layers", "Of clustered LPT: 2 or 4 polynomials for each column."));
   a.field("paper", v.paper,
           of(Role::Shape)
               .expert()

@@ -123,6 +123,19 @@ void describe(A& a, typename A::template Ref<render::RenderOptions> v) {
 }
 
 template <typename A>
+void describe(A& a, typename A::template Ref<report::AccuracyOptions> v) {
+  a.field("metric", v.metric,
+          of(Role::Shape)
+              .says("Metric",
+                    "How the error against the ray-traced reference is counted. Rendering then picks "
+                    "layers, lights and fit itself."));
+  a.field("bound", v.bound,
+          range(0.0, 1000.0)
+              .soft(0.0, 1.0)
+              .says("Bound", "The largest error (RMSE, FLIP), or the least likeness (PSNR in dB, SSIM)."));
+}
+
+template <typename A>
 void describe(A& a, typename A::template Ref<Output> v) {
   a.field("width", v.width,
           range(1, 16384, "pixels").soft(320, 4096).says("Width", "Width of the picture that is rendered."));

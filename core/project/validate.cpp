@@ -313,6 +313,10 @@ void checkViews(const Project& project, Problems& out) {
 }
 
 void checkRest(const Project& project, Problems& out) {
+  if (project.fit.clusters != 2 && project.fit.clusters != 4) {
+    out.error("fit.clusters", std::to_string(project.fit.clusters) + " groups of layers cannot be stored",
+              "Give 2 or 4.");
+  }
   if (project.fit.bits != 8 && project.fit.bits != 16) {
     out.error("fit.bits", std::to_string(project.fit.bits) + " bits cannot be stored", "Give 8 or 16.");
   }

@@ -35,9 +35,27 @@ constexpr auto words(scene::LightPattern) {
         "Where the sun passes on some dates at a latitude; elsewhere relighting is a guess."}}};
 }
 constexpr auto words(lpt::Basis) {
-  return std::array<Word<lpt::Basis>, 2>{
+  return std::array<Word<lpt::Basis>, 7>{
       {{lpt::Basis::Lpt, "lpt", "Layered (LPT)", "One polynomial for a whole column of layers: small and smooth."},
-       {lpt::Basis::Ptm, "ptm", "Per layer (PTM)", "One polynomial for every texel of a layer: truer and larger."}}};
+       {lpt::Basis::Ptm, "ptm", "Per layer (PTM)", "One polynomial for every texel of a layer: truer and larger."},
+       {lpt::Basis::Constant, "constant", "Constant",
+        "One value for every texel, whatever the light: least memory, no moving shadows."},
+       {lpt::Basis::Clustered, "clustered", "Clustered LPT",
+        "Two or four polynomials for a column: between the two above. Each new sun takes a moment."},
+       {lpt::Basis::Hsh, "hsh", "Hemispherical harmonics",
+        "Four harmonics for every texel, for comparison. Each new sun takes a moment."},
+       {lpt::Basis::Marched, "marched", "Marched shadows",
+        "Shadows marched through the plants' own density: truest, bakes no lights. Each new sun takes a moment."},
+       {lpt::Basis::Sampled, "sampled", "Traced for this sun",
+        "Nothing is fitted: light is traced for the sun as it stands, and again for each new one."}}};
+}
+constexpr auto words(report::ErrorBound) {
+  return std::array<Word<report::ErrorBound>, 5>{
+      {{report::ErrorBound::None, "none", "None", "What the project says is baked, whatever its error."},
+       {report::ErrorBound::Rmse, "rmse", "RMSE", "Root mean square difference of display values, 0 to 1."},
+       {report::ErrorBound::Psnr, "psnr", "PSNR", "Peak signal to noise of display values, dB: at least."},
+       {report::ErrorBound::Ssim, "ssim", "SSIM", "Structural similarity of display values, 0 to 1: at least."},
+       {report::ErrorBound::Flip, "flip", "FLIP", "What an eye notices when it flips between the two, 0 to 1."}}};
 }
 constexpr auto words(tiles::SeamMethod) {
   return std::array<Word<tiles::SeamMethod>, 2>{

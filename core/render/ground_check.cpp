@@ -14,8 +14,9 @@ Error misfit(const std::string& what) {
 
 Result<void> checkStack(const lpt::LayerStack& stack, const std::string& name) {
   const std::size_t perItem = static_cast<std::size_t>(stack.perColumn() * stack.channels);
-  const std::size_t items = stack.basis == lpt::Basis::Lpt ? stack.columnCount() : stack.texelCount();
+  const std::size_t items = stack.itemCount();
   const std::size_t texels = stack.texelCount();
+  if (perItem == 0) return misfit(name + " holds a basis that cannot be relit");
   if (stack.bits != 8 && stack.bits != 16) return misfit(name + " has " + std::to_string(stack.bits) + " bits");
   if (stack.channels < 1 || stack.channels > 2) return misfit(name + " has a wrong number of channels");
   if (texels == 0 || stack.layers < 1) return misfit(name + " is empty");

@@ -10,14 +10,16 @@ LightTerms lightTerms(lpt::Basis basis, int channels, std::span<const lpt::Coeff
   // Which of A, B, C a coefficient goes to: b2 is C, b4, b5, b8 make B.
   constexpr std::array<int, 10> lptTerm{0, 0, 2, 0, 1, 1, 0, 0, 1, 0};
   const std::array<double, 6> ptmFunctions{x * x, y * y, 2.0 * x * y, 2.0 * x, 2.0 * y, 1.0};
-  const int count = basis == lpt::Basis::Lpt ? 10 : 6;
+  const int count = lpt::stackCoefficients(basis);
   LightTerms terms;
   std::array<double, 6> constants{};
   for (int c = 0; c < channels; ++c) {
     for (int j = 0; j < count; ++j) {
       const auto at = static_cast<std::size_t>(j);
       const lpt::CoefficientRange& range = ranges[static_cast<std::size_t>(c * count + j)];
-      const double function = basis == lpt::Basis::Lpt ? lptFunctions[at] : ptmFunctions[at];
+      const double function = basis == lpt::Basis::Lpt   ? lptFunctions[at]
+                              : basis == lpt::Basis::Ptm ? ptmFunctions[at]
+                                                         : 1.0;
       const int term = basis == lpt::Basis::Lpt ? lptTerm[at] : 0;
       if (range.scale > 0.0f)
         terms.weights[static_cast<std::size_t>(c * 10 + j)] =
@@ -31,7 +33,7 @@ LightTerms lightTerms(lpt::Basis basis, int channels, std::span<const lpt::Coeff
 
 LightTerms coefficientTerms(lpt::Basis basis, std::span<const lpt::CoefficientRange> ranges, int channel,
                             int coefficient, double range) {
-  const int count = basis == lpt::Basis::Lpt ? 10 : 6;
+  const int count = lpt::stackCoefficients(basis);
   const lpt::CoefficientRange& stored = ranges[static_cast<std::size_t>(channel * count + coefficient)];
   LightTerms terms;
   const double half = 0.5 / range;

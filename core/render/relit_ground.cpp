@@ -245,6 +245,7 @@ Result<void> RelitGround::relightStack(ProgramCache& programs, const Stack& stac
   const bool slices = &stack == &m_stacks[0] || &stack == &m_stacks[1];
   const int block = withMip ? 2 : 1;
   Defines defines{{"SWARD_LPT", stack.basis == lpt::Basis::Lpt ? "1" : "0"},
+                  {"SWARD_PER_ITEM", std::to_string(lpt::stackCoefficients(stack.basis))},
                   {"SWARD_CHANNELS", std::to_string(stack.channels)},
                   {"SWARD_BITS", std::to_string(stack.bits)},
                   {"SWARD_TRANSMISSION", stack.transmits ? "1" : "0"},

@@ -120,7 +120,7 @@ void collect(const lpt::LayerStack& stack, ResponseChannel channel, int coeffici
   const auto index = static_cast<std::size_t>(static_cast<int>(channel) * stack.perColumn() + coefficient);
   if (index >= stack.ranges.size()) return;
   const lpt::CoefficientRange& range = stack.ranges[index];
-  const std::size_t items = stack.basis == lpt::Basis::Lpt ? stack.columnCount() : stack.texelCount();
+  const std::size_t items = stack.itemCount();
   const std::size_t bytes = static_cast<std::size_t>(stack.bits) / 8;
   for (std::size_t item = 0; item < items; item += 1 + items / kMost) {
     const std::uint8_t* stored = stack.coefficients.data() + (item * stack.ranges.size() + index) * bytes;

@@ -1,7 +1,7 @@
 #include "report/report.h"
 
-#include "base/file.h"
-
+#include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <thread>
 
@@ -24,21 +24,21 @@ std::string procValue(const char* file, const std::string& name) {
   return {};
 }
 
-Json machineJson(const gpu::DeviceInfo& device) {
-  Json machine = Json::object();
-  if (const std::string cpu = procValue("/proc/cpuinfo", "model name"); !cpu.empty()) machine["cpu"] = cpu;
-  machine["cores"] = std::thread::hardware_concurrency();
-  // "MemTotal: 12345 kB"
-  if (const std::string memory = procValue("/proc/meminfo", "MemTotal"); !memory.empty()) {
-    machine["memory_bytes"] = std::strtoull(memory.c_str(), nullptr, 10) * 1024;
-  }
-  machine["gl"] = {
+Json machineJson(const Machine& machine) {
+  Json json = Json::object();
+  if (!machine.cpu.empty()) json["cpu"] = machine.cpu;
+  json["cores"] = machine.cores;
+  if (machine.memoryBytes > 0) json["memory_bytes"] = machine.memoryBytes;
+  const gpu::DeviceInfo& device = machine.device;
+  json["gl"] = {
       {"api", device.api}, {"renderer", device.renderer}, {"version", device.version}, {"software", device.software}};
-  return machine;
+  return json;
 }
 
-template <typename T>
-void set(Json& json, const char* name, const std::optional<T>& value) {
+void set(Json& json, const char* name, const std::optional<double>& value) {
+  if (value.has_value() && std::isfinite(*value)) json[name] = *value;
+}
+void set(Json& json, const char* name, const std::optional<std::uint64_t>& value) {
   if (value.has_value()) json[name] = *value;
 }
 void set(Json& json, const char* name, const std::string& value) {
@@ -59,7 +59,9 @@ Json rowJson(const Row& row) {
   set(json, "bake_s", row.bakeSeconds);
   set(json, "bytes", row.bytes);
   set(json, "bytes_total", row.bytesTotal);
-  if (!row.error.empty()) json["error"] = row.error;
+  for (const auto& [name, value] : row.error) {
+    if (std::isfinite(value)) json["error"][name] = value;
+  }
   set(json, "reference", row.reference);
   set(json, "notes", row.notes);
   return json;
@@ -67,28 +69,23 @@ Json rowJson(const Row& row) {
 
 }  // namespace
 
+Machine thisMachine(const gpu::DeviceInfo& device) {
+  // "MemTotal: 12345 kB"
+  const std::string memory = procValue("/proc/meminfo", "MemTotal");
+  return {procValue("/proc/cpuinfo", "model name"), std::thread::hardware_concurrency(),
+          std::strtoull(memory.c_str(), nullptr, 10) * 1024, device};
+}
+
 std::string reportJson(const ReportHead& head, const std::vector<Section>& sections) {
-  Json json = {{"sward", head.version}, {"machine", machineJson(head.device)}, {"project", head.project}};
+  Json json = {{"sward", head.version}, {"machine", machineJson(head.machine)}, {"project", head.project}};
   json["sections"] = Json::object();
   for (const Section& section : sections) {
+    if (!section.failure.empty()) continue;
     Json list = Json::array();
     for (const Row& row : section.rows) list.push_back(rowJson(row));
     json["sections"][section.name] = {{"rows", list}};
   }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-Result<std::filesystem::path> writeReport(const std::filesystem::path& folder, const ReportHead& head,
-                                          const std::vector<Section>& sections) {
-  std::error_code code;
-  std::filesystem::create_directories(folder, code);
-  if (code || !std::filesystem::is_directory(folder)) {
-    return Error::badInput("cannot make the folder" + (code ? ": " + code.message() : std::string()), folder.string(),
-                           "Choose another folder with -o.");
-  }
-  const std::filesystem::path file = folder / "report.json";
-  SWARD_TRY(base::writeFileAtomically(file, reportJson(head, sections)));
-  return file;
 }
 
 }  // namespace sward::report

@@ -24,11 +24,16 @@ struct SectionInput {
 };
 
 /// A picture of the report: written as NAME.exr (linear) and NAME.png (display) under pictures/, shown in the page.
+/// A row whose errors were measured on two of them names both in its parameters, so that others can measure again:
+///   "picture": "\"NAME\"", "reference_picture": "\"NAME\"": names without endings; both have `linear`
+///   "display": "\"filmic\"" or "\"standard\"": the render::ViewTransform that made `display` of `linear`
+/// Its rmse, bias and max are then of the linear values, psnr_db, ssim and flip of the display values (before they are
+/// rounded to 8 bits), all over the whole picture (image::compareImages).
 struct Picture {
-  std::string name;  ///< file name without its ending: letters, digits, _ and -
+  std::string name;  ///< file name without its ending: letters, digits, _ and -; no two of a report are the same
   std::string caption;
   image::Image linear;   ///< RGB linear radiance times exposure; empty: none is written
-  image::Image display;  ///< RGB in [0, 1], sRGB-encoded
+  image::Image display;  ///< RGB in [0, 1], sRGB-encoded; never empty
 };
 /// Pictures side by side: a method, the reference, their difference.
 struct Strip {
@@ -36,19 +41,21 @@ struct Strip {
   std::vector<Picture> pictures;
 };
 
-/// A plot of points, one series a method; axes may be logarithmic.
+/// A plot of points, one series a method; axes may be logarithmic (points that are not above 0 are left out then, and
+/// the page says how many). A series keeps its colour in all plots of a report, by its name.
 struct Plot {
   struct Point {
     double x = 0.0, y = 0.0;
-    std::string label;
+    std::string label;  ///< written beside the point; empty: the series' name stands at its only or its last point
   };
   struct Series {
     std::string name;
     std::vector<Point> points;
     bool line = false;  ///< join the points
   };
-  std::string name;  ///< file name without its ending
-  std::string title, xLabel, yLabel;
+  std::string name;                   ///< file name without its ending
+  std::string title, xLabel, yLabel;  ///< labels with their units
+  std::string caption;                ///< how to read it, in a sentence or two
   bool logX = false, logY = false;
   bool pareto = false;  ///< draws the front of the points that no other beats in both x and y (smaller is better)
   std::vector<Series> series;
@@ -70,12 +77,14 @@ struct Array {
 struct Section {
   std::string name;  ///< as design.md lists it
   std::string title;
-  std::string summary;  ///< a paragraph: what was measured, how, and how to read it
+  std::string summary;  ///< what was measured, how, and how to read it; an empty line parts paragraphs
   std::vector<Row> rows;
   std::vector<Plot> plots;
   std::vector<Strip> strips;
   std::vector<Table> tables;
   std::vector<Array> arrays;
+  double seconds = 0.0;  ///< that measuring it took; set by who runs the sections
+  std::string failure;   ///< why it could not be measured, for people; it has no rows then and is not in report.json
 };
 
 /// Measures one section. Progress counts its own steps, in [0, 1].

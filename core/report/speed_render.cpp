@@ -4,6 +4,7 @@
 #include "gpu/program.h"
 #include "render/renderer.h"
 #include "render/shader_files.h"
+#include "report/text.h"
 #include "scene/camera.h"
 #include "scene/lights.h"
 #include "scene/sun_sky.h"
@@ -119,13 +120,6 @@ Result<render::Frame> frameOf(const SpeedView& speedView, double exposure) {
   frame.height = kHeight;
   frame.exposure = exposure;
   return frame;
-}
-
-std::string numberText(double value) {
-  std::string text = std::to_string(value);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text;
 }
 
 Row timedRow(const std::string& method, const TimeMs& time, const TimeMs& other, const std::string& against) {

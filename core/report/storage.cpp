@@ -26,7 +26,8 @@ lpt::LayerStack makeStack(const PaperSize& size, lpt::Basis basis, int bits, int
   in.channels = channels;
   const std::size_t columns = static_cast<std::size_t>(size.side) * static_cast<std::size_t>(size.side);
   const std::size_t texels = columns * static_cast<std::size_t>(size.layers);
-  in.coefficients.resize((basis == lpt::Basis::Lpt ? columns * 10 : texels * 6) * static_cast<std::size_t>(channels));
+  in.coefficients.resize((basis == lpt::Basis::Lpt ? columns : texels) *
+                         static_cast<std::size_t>(lpt::stackCoefficients(basis) * channels));
   for (std::size_t i = 0; i < in.coefficients.size(); ++i) {
     in.coefficients[i] = static_cast<float>(i % 1021) / 1021.0f - 0.5f;
   }
@@ -42,7 +43,7 @@ lpt::LayerStack makeStack(const PaperSize& size, lpt::Basis basis, int bits, int
 /// Coefficients as four-channel images: both channels of a column share them, ten bytes take three, twenty take five.
 std::uint64_t textureBytes(const lpt::LayerStack& stack) {
   const auto perPlace = static_cast<std::uint64_t>(stack.perColumn() * stack.channels);
-  const std::uint64_t places = stack.basis == lpt::Basis::Lpt ? stack.columnCount() : stack.texelCount();
+  const std::uint64_t places = stack.itemCount();
   return (perPlace + 3) / 4 * 4 * places * static_cast<std::uint64_t>(stack.bits / 8);
 }
 

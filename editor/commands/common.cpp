@@ -184,6 +184,22 @@ Result<void> checkOutputFile(const fs::path& file) {
   return {};
 }
 
+std::string shellText(const std::vector<std::string>& words) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:=+@%";
+  std::string text;
+  for (const std::string& word : words) {
+    if (!text.empty()) text += ' ';
+    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
+      text += word;
+      continue;
+    }
+    text += '\'';
+    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    text += '\'';
+  }
+  return text;
+}
+
 std::string secondsText(double seconds) {
   if (seconds < 0.1) return fixed(1000.0 * seconds, 1) + " ms";
   return fixed(seconds, 2) + " s";

@@ -40,6 +40,7 @@ struct Program {
   Interrupts& interrupts;
   CommonOptions common;
   std::function<Result<int>()> run;
+  std::string commandLine;  ///< as it was given, quoted for a shell
 };
 
 /// Adds a command with the common options and examples under its help. `run` is called after parsing.
@@ -103,6 +104,9 @@ class StopWatch {
 
 /// Checks that a file can be put there: the folder exists and may be written, the target is no folder or device.
 Result<void> checkOutputFile(const std::filesystem::path& file);
+
+/// Words as a shell takes them: those with anything but plain characters in quotes.
+std::string shellText(const std::vector<std::string>& words);
 
 /// "1.24 s", "38 ms"; "12.3 MiB".
 std::string secondsText(double seconds);

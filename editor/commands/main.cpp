@@ -55,7 +55,10 @@ int runProgram(int argc, char** argv, Interrupts& interrupts) {
   app.footer(kFooter);
   app.set_version_flag("--version", std::string("sward ") + SWARD_VERSION);
   app.require_subcommand(0, 1);
-  Program program{interrupts, {}, {}};
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  words.insert(words.begin(), "sward");
+  Program program{interrupts, {}, {}, {}};
+  program.commandLine = shellText(words);
   addEditCommand(app, program);
   addRenderCommand(app, program);
   addBakeCommand(app, program);

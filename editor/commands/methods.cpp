@@ -1,31 +1,18 @@
 #include "methods.h"
 
+#include "lpt/representation.h"
 #include "project/nearest.h"
 #include "project/words.h"
 
-#include <array>
 #include <optional>
-#include <string_view>
 
 namespace sward::editor {
 namespace {
 
-struct FitMethod {
-  std::string_view name;
-  lpt::Basis basis;
-  int bits;
-  bool paper;
-};
-constexpr std::array<FitMethod, 5> kFitMethods{{{"lpt8", lpt::Basis::Lpt, 8, false},
-                                                {"lpt16", lpt::Basis::Lpt, 16, false},
-                                                {"lpt_paper", lpt::Basis::Lpt, 8, true},
-                                                {"ptm8", lpt::Basis::Ptm, 8, false},
-                                                {"ptm16", lpt::Basis::Ptm, 16, false}}};
-
 std::vector<std::string> allNames() {
   std::vector<std::string> names;
   for (const auto& word : project::words(render::GroundMethod{})) names.emplace_back(word.text);
-  for (const FitMethod& method : kFitMethods) names.emplace_back(method.name);
+  for (const lpt::Method& method : lpt::kMethods) names.emplace_back(method.name);
   return names;
 }
 
@@ -37,12 +24,9 @@ Result<void> applyMethod(const std::string& name, project::Project& project, boo
     project.render.method = *draw;
     return {};
   }
-  for (const FitMethod& method : kFitMethods) {
-    if (method.name != name) continue;
+  if (const lpt::Method* method = lpt::findMethod(name)) {
     if (std::exchange(fitGiven, true)) return twice;
-    project.fit.basis = method.basis;
-    project.fit.bits = method.bits;
-    project.fit.paper = method.paper;
+    project.fit = method->options(project.fit);
     return {};
   }
   const std::string nearest = project::nearestName(name, allNames());

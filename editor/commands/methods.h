@@ -11,8 +11,8 @@
 namespace sward::editor {
 
 /// Sets what --method names in a project: how the ground is drawn (march, blended, blended_paper) and what its light
-/// response is fitted with (lpt8, lpt16, lpt_paper, ptm8, ptm16). One of each kind at most, in any order, repeated or
-/// separated by commas.
+/// response is kept as (lpt::kMethods; ptm16 is another name of ptm). One of each kind at most, in any order, repeated
+/// or separated by commas.
 Result<void> applyMethods(const std::vector<std::string>& methods, project::Project& project);
 
 /// "march, blended, ..." for help.

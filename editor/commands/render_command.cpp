@@ -1,3 +1,4 @@
+#include "choose.h"
 #include "commands.h"
 #include "methods.h"
 
@@ -18,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct RenderRequest {
-  std::string project, output, view, size, sun, device = "auto";
+  std::string project, output, view, size, sun, maxError, device = "auto";
   std::vector<std::string> methods;
   std::optional<int> samples;
   double exposureEv = 0.0;
@@ -108,6 +109,9 @@ Result<RenderPlan> planRender(const Program& program, const RenderRequest& reque
   SWARD_TRY(applySize(request.size, project));
   SWARD_TRY(applySun(request.sun, project));
   if (request.samples) project.render.samples = *request.samples;
+  if (!request.maxError.empty()) {
+    SWARD_ASSIGN(project.accuracy, report::parseAccuracy(request.maxError));
+  }
   SWARD_TRY(checkProject(program, project));
   SWARD_TRY(checkPicture(request.output));
   SWARD_ASSIGN(const scene::View view, chooseView(project, request.view));
@@ -159,8 +163,9 @@ Result<int> runRender(Program& program, const RenderRequest& request) {
   StopWatch watch;
   RenderTimes times;
   SWARD_ASSIGN(const gpu::Device device, gpu::deviceFromName(request.device));
-  SWARD_ASSIGN(const RenderPlan plan, planRender(program, request));
+  SWARD_ASSIGN(RenderPlan plan, planRender(program, request));
   SWARD_ASSIGN(const auto context, gpu::Context::create(device));
+  SWARD_ASSIGN(const auto choice, chooseBake(program, plan.project, {plan.view}, *context));
   times.start = watch.lap();
   bake::BakeReport baked;
   std::shared_ptr<const bake::GroundBake> ground;
@@ -184,7 +189,11 @@ Result<int> runRender(Program& program, const RenderRequest& request) {
                    "): relit, and " + std::to_string(plan.project.render.samples) + " samples, in " +
                    secondsText(times.draw));
   say(program, "wrote " + plan.output.string());
-  if (program.common.json) print(resultJson(plan, context->info(), times, baked));
+  if (program.common.json) {
+    Json result = resultJson(plan, context->info(), times, baked);
+    if (choice) result["choice"] = choiceJson(*choice);
+    print(result);
+  }
   return kDone;
 }
 
@@ -198,6 +207,7 @@ void addRenderCommand(CLI::App& app, Program& program) {
                  "Examples:\n"
                  "  sward render meadow.sward -o meadow.png --view low --size 1920x1080\n"
                  "  sward render meadow.sward -o noon.exr --sun 180,62 --spp 64 --exposure -0.5\n"
+                 "  sward render meadow.sward -o cheap.png --view top --max-error rmse=0.12\n"
                  "  sward render meadow.sward -o paper.png --method blended_paper,lpt_paper --set tiles.seed=2");
   const auto request = std::make_shared<RenderRequest>();
   command->add_option("PROJECT", request->project, "The project, a .sward file")->required();
@@ -212,6 +222,10 @@ void addRenderCommand(CLI::App& app, Program& program) {
       ->type_name("M")
       ->delimiter(',')
       ->allow_extra_args(false);
+  command
+      ->add_option("--max-error", request->maxError,
+                   "Bake the cheapest that keeps this error in the view: rmse, psnr, ssim or flip, such as rmse=0.1")
+      ->type_name("METRIC=BOUND");
   command->add_option("--device", request->device, "OpenGL: auto, egl or osmesa [auto]")->type_name("D");
   command->add_option("--spp", request->samples, "Samples a pixel [the project's]")
       ->type_name("N")

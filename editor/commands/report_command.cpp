@@ -1,120 +1,178 @@
 #include "commands.h"
+#include "report_sections.h"
 
-#include "app/stall_report.h"
 #include "gpu/context.h"
-#include "report/report.h"
-#include "report/speed.h"
+#include "report/writer.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <numeric>
 
 namespace sward::editor {
 namespace {
 
 struct ReportRequest {
   std::string project, folder, device = "auto";
-  std::vector<std::string> sections{"speed"};
+  std::vector<std::string> sections;
   bool quick = false;
 };
 
+std::string formatted(const char* format, double value) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), format, value);
+  return text.data();
+}
+
 std::string rowText(const report::Row& row) {
+  std::vector<std::string> parts;
+  if (row.timeMs) parts.push_back(secondsText(row.timeMs->median / 1000.0));
+  if (row.rate) parts.push_back(formatted("%.4g ", *row.rate) + row.rateUnit + "/s");
+  if (row.ratio) parts.push_back("ratio " + formatted("%.3g", *row.ratio));
+  if (row.bytes) parts.push_back(bytesText(*row.bytes));
+  for (const auto& [name, value] : row.error) parts.push_back(name + " " + formatted("%.4g", value));
   std::string text = row.method + ":";
-  if (row.timeMs) text += " " + secondsText(row.timeMs->median / 1000.0);
-  std::array<char, 64> number{};
-  if (row.rate) {
-    std::snprintf(number.data(), number.size(), " %.4g %s/s", *row.rate, row.rateUnit.c_str());
-    text += number.data();
-  }
-  if (row.ratio) {
-    std::snprintf(number.data(), number.size(), ", ratio %.3g", *row.ratio);
-    text += number.data();
-  }
-  if (row.bytes) text += " " + bytesText(*row.bytes);
+  for (std::size_t i = 0; i < parts.size(); ++i) text += (i == 0 ? " " : ", ") + parts[i];
   return text;
 }
 
-/// The row edit_stall: what the window's thread is kept from while an author drags a blade's height and bakes run.
-Result<report::Row> stallRow(const Program& program, const ReportRequest& request) {
-  constexpr double kLimitMs = 100.0, kSeconds = 6.0, kQuickSeconds = 3.0;
-  ApplicationOptions options;
-  options.project = request.project;
-  options.overrides = program.common.overrides;
-  options.cacheFolder = cacheFolder(program);
-  options.unattended = true;
-  SWARD_ASSIGN(const StallMeasurement measured, measureStalls(options, request.quick ? kQuickSeconds : kSeconds));
-  report::Row row;
-  row.method = "edit_stall";
-  row.timeMs = report::TimeMs{measured.medianMs, measured.leastMs, measured.worstMs, static_cast<int>(measured.frames)};
-  if (measured.worstMs > 0.0) row.ratio = kLimitMs / measured.worstMs;
-  row.against = "a stall of 100 ms, over the longest frame";
-  Json ends = Json::array(), counts = Json::array();
-  for (const double end : StallMeter::kEndsMs) ends.push_back(end);
-  for (const std::size_t count : measured.histogram) counts.push_back(count);
-  row.numbersAndNames = {{"width", "1280"},
-                         {"height", "800"},
-                         {"histogram_ends_ms", ends.dump()},
-                         {"histogram_frames", counts.dump()},
-                         {"drag_s", Json(measured.dragSeconds).dump()},
-                         {"pictures_during_drag", Json(measured.pictures).dump()}};
-  row.notes = "frames of the interface while a height is dragged and baked; drawn through EGL without a window";
-  return row;
+/// One part of a bar that stands for all sections.
+class SectionProgress {
+ public:
+  SectionProgress(const std::vector<SectionEntry>& entries, const JobContext& whole) : m_whole(whole) {
+    for (const SectionEntry& entry : entries) m_seconds.push_back(std::max(entry.seconds, 0.1));
+  }
+  /// For the section of this index.
+  JobContext job(std::size_t index, const std::string& name) const {
+    JobContext part{m_whole.stop, {}, m_whole.threads};
+    if (!m_whole.onProgress) return part;
+    const double total = std::accumulate(m_seconds.begin(), m_seconds.end(), 0.0);
+    const auto at = m_seconds.begin() + static_cast<std::ptrdiff_t>(index);
+    const double before = std::accumulate(m_seconds.begin(), at, 0.0) / total;
+    const std::string place = name + " (" + std::to_string(index + 1) + " of " + std::to_string(m_seconds.size()) + ")";
+    part.onProgress = [=, share = *at / total, report = m_whole.onProgress](const std::string& stage, double fraction) {
+      report(place + (stage.empty() ? "" : ", " + stage), before + share * fraction);
+    };
+    part.onProgress("", 0.0);
+    return part;
+  }
+
+ private:
+  const JobContext& m_whole;
+  std::vector<double> m_seconds;
+};
+
+/// All sections that were asked for. One that fails is told and leaves the others their place; when all fail, the
+/// first one's error is the command's.
+Result<std::vector<report::Section>> measure(Program& program, const std::vector<SectionEntry>& entries,
+                                             const report::SectionInput& input, std::vector<Error>& failures) {
+  ProgressBar bar(program);
+  const JobContext whole = bar.job();
+  const SectionProgress progress(entries, whole);
+  std::vector<report::Section> sections;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    StopWatch watch;
+    Result<report::Section> measured = entries[i].measure(input, progress.job(i, entries[i].name));
+    if (whole.cancelled()) return Error::cancelled();
+    report::Section section = measured.ok() ? std::move(measured).value() : report::Section{};
+    section.name = entries[i].name;
+    section.seconds = watch.lap();
+    if (!measured.ok()) {
+      section.failure = measured.error().text();
+      failures.push_back(measured.error());
+    }
+    sections.push_back(std::move(section));
+  }
+  if (failures.size() == entries.size()) return failures.front();
+  return sections;
+}
+
+report::ReportHead headOf(const Program& program, const ReportRequest& request, const report::SectionInput& input) {
+  report::ReportHead head;
+  head.version = SWARD_VERSION;
+  head.project = request.project;
+  head.title = input.project.name;
+  head.commandLine = program.commandLine;
+  head.quick = request.quick;
+  head.machine = report::thisMachine(input.context.info());
+  if (program.common.threads > 0) head.settings.emplace_back("Threads", std::to_string(program.common.threads));
+  return head;
+}
+
+void sayRows(const Program& program, const std::vector<report::Section>& sections) {
+  std::string seconds;
+  double total = 0.0;
+  for (const report::Section& section : sections) {
+    if (sections.size() > 1) say(program, section.name);
+    for (const report::Row& row : section.rows) say(program, (sections.size() > 1 ? "  " : "") + rowText(row));
+    seconds += section.name + " " + formatted("%.1f", section.seconds) + ", ";
+    total += section.seconds;
+  }
+  say(program, "seconds: " + seconds + "in all " + formatted("%.1f", total));
 }
 
 Result<int> runReport(Program& program, const ReportRequest& request) {
-  for (const std::string& section : request.sections) {
-    if (section != "speed") {
-      return Error::badInput("there is no section \"" + section + "\"", "--section", "Sections: speed.");
-    }
-  }
+  SWARD_ASSIGN(const std::vector<SectionEntry> entries,
+               chooseSections(reportSections(program, request.project), request.sections));
   SWARD_ASSIGN(const gpu::Device device, gpu::deviceFromName(request.device));
   SWARD_ASSIGN(const project::Project project, loadProject(program, request.project));
   SWARD_TRY(checkProject(program, project));
-  std::error_code code;
-  if (std::filesystem::exists(request.folder, code) && !std::filesystem::is_directory(request.folder, code)) {
-    return Error::badInput("this is not a folder", request.folder, "Choose another with -o.");
-  }
+  SWARD_TRY(report::checkReportFolder(request.folder));
   SWARD_ASSIGN(const auto context, gpu::Context::create(device));
-  std::vector<report::Row> rows;
+  const report::SectionInput input{project, *context, cacheFolder(program), request.quick};
+  std::vector<Error> failures;
+  SWARD_ASSIGN(const std::vector<report::Section> sections, measure(program, entries, input, failures));
+  const report::ReportHead head = headOf(program, request, input);
+  report::WrittenReport written;
   {
     ProgressBar bar(program);
-    const report::SpeedInput input{project, *context, cacheFolder(program), request.quick};
-    SWARD_ASSIGN(rows, report::speedRows(input, bar.job()));
-  }
-  SWARD_ASSIGN(report::Row stalls, stallRow(program, request));
-  rows.push_back(std::move(stalls));
-  for (const report::Row& row : rows) say(program, rowText(row));
-  const report::ReportHead head{SWARD_VERSION, request.project, context->info()};
-  std::vector<report::Section> sections(1);
-  sections[0].name = "speed";
-  sections[0].rows = rows;
-  std::filesystem::path file;
-  {
+    SWARD_ASSIGN(report::StagedReport staged, report::StagedReport::stage(request.folder, head, sections, bar.job()));
     const auto writing = program.interrupts.writing();
-    SWARD_ASSIGN(file, report::writeReport(request.folder, head, sections));
+    SWARD_ASSIGN(written, staged.commit());
   }
-  say(program, "wrote " + file.string());
+  sayRows(program, sections);
+  say(program, "wrote " + written.page.string() + " and " + std::to_string(written.files - 1) + " files beside it, " +
+                   bytesText(written.bytes));
+  for (const Error& failure : failures) complain(failure.text());
   if (program.common.json) print(Json::parse(report::reportJson(head, sections)));
-  return kDone;
+  return failures.empty() ? kDone : exitCodeOf(failures.front());
+}
+
+std::string helpText(const std::vector<SectionEntry>& entries) {
+  std::string text =
+      "Writes a report of one project on this machine to DIR: report.html (one file that needs\n"
+      "nothing beside it), report.json (the same rows for programs), plots/*.svg, pictures/*.png\n"
+      "and *.exr, tables/*.csv and *.npy (what the rows were computed from). It takes the place of\n"
+      "the report before it in DIR; other files there are left alone. Times are medians on this\n"
+      "machine: let nothing else run.\n\nSections:\n";
+  for (const SectionEntry& entry : entries) {
+    text +=
+        "  " + entry.name + std::string(entry.name.size() < 14 ? 14 - entry.name.size() : 1, ' ') + entry.about + "\n";
+  }
+  return text +
+         "\nExamples:\n"
+         "  sward report projects/meadow.sward -o report\n"
+         "  sward report meadow.sward -o report --quick --section speed\n"
+         "  sward report meadow.sward -o report --json --quiet > rows.json\n"
+         "  sward report meadow.sward -o more --set lights.count=32";
 }
 
 }  // namespace
 
 void addReportCommand(CLI::App& app, Program& program) {
+  const std::vector<SectionEntry> entries = reportSections(program, {});
   CLI::App* command =
-      addCommand(app, program, "report", "Measure speed against error on this machine",
-                 "Writes DIR/report.json. Section speed: sampling, fitting, relighting, drawing and\n"
-                 "whole renders, each with its rate or time and the ratio to its limit or yardstick.\n\n"
-                 "Example:\n  sward report meadow.sward -o report --section speed --quick");
+      addCommand(app, program, "report", "Measure speed against error on this machine", helpText(entries));
   const auto request = std::make_shared<ReportRequest>();
   command->add_option("PROJECT", request->project, "The project, a .sward file")->required();
   command->add_option("-o,--output", request->folder, "Folder to write to; made when needed")
       ->required()
       ->type_name("DIR");
-  command->add_option("--section", request->sections, "What to measure: speed [speed] (repeatable)")
+  command->add_option("--section", request->sections, "What to measure, see below [all] (repeatable)")
       ->type_name("NAME")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_flag("--quick", request->quick, "Fewer runs and smaller sizes; no cold bake");
+  command->add_flag("--quick", request->quick, "Fewer runs and smaller sizes, in under a minute");
   command->add_option("--device", request->device, "OpenGL: auto, egl or osmesa [auto]")->type_name("D");
   command->callback(
       [&program, request] { program.run = [&program, request] { return runReport(program, *request); }; });

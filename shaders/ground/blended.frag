@@ -24,13 +24,12 @@ void composite(uint stored, float weight, float times) {
 }
 
 void compositeBlades(Walk walk, Level level, bool axisX, float weight, float random) {
-  BladeWalk along = startBlades(walk, level, axisX, random);
-  Planes planes = along.planes;
+  BladeWalk blades = startBlades(walk, level, axisX, random);
+  Planes planes = blades.planes;
   for (int i = 0; i < kMaxBlendedBlades; ++i) {
     if (planes.t >= walk.tEnd) break;
-    Site site =
-        bladeSite(level, axisX, planes.place, alongAt(along, planes.t), along.row + along.rowSlope * planes.t);
-    composite(fetchSite(site, along.start, u_slabs, level.area, level.mean), weight, abs(planes.step) * float(u_slabs));
+    uint stored = fetchAlong(blades, level, axisX, planes.place, planes.t);
+    composite(stored, weight, abs(planes.step) * float(v_slabs));
     planes.t += planes.stride;
     planes.place += planes.step;
   }
@@ -43,7 +42,7 @@ void main() {
   Walk walk = startWalk(d);
   float facing = max(-d.z, 0.0);
   float slices = facing;
-  float blades = max(1.0 - facing / u_cosTheta0, 0.0);
+  float blades = max(1.0 - facing / v_cosTheta0, 0.0);
 #if !SWARD_PAPER_WEIGHTS
   float both = max(slices + blades, 1e-6);
   slices /= both;
@@ -53,10 +52,10 @@ void main() {
   Level layered = sliceLevel(walk.footprint, random, levelJitter);
   vec2 place = slicePlace(walk, layered);
   Planes planes = slicePlanes(walk, fourthRandom(random));
-  for (int i = 0; i < u_sliceLayers; ++i) {
+  for (int i = 0; i < v_sliceLayers; ++i) {
     if (planes.t >= walk.tEnd) break;
-    Site site = sliceSite(layered, int(planes.place), place + walk.slope * planes.t);
-    composite(fetchSite(site, layered.start, u_sliceLayers, layered.area, layered.mean), slices, 1.0);
+    int start = layerStart(layered, int(planes.place));
+    composite(fetchSlice(layered, start, place + walk.slope * planes.t), slices, 1.0);
     planes.t += planes.stride;
     planes.place += planes.step;
   }

@@ -44,14 +44,14 @@ vec4 label(int number, vec2 q, float pixelsATile) {
 
 // Borders and numbers lie on a plane within the shell, or on the ground where the eye is below that; premultiplied.
 vec4 tileOverlay(Walk walk, vec3 d) {
-  float overlayM = u_eyeM > u_heightM ? kOverlayHeight * u_heightM : 0.0;
+  float overlayM = v_eyeM > v_heightM ? kOverlayHeight * v_heightM : 0.0;
   float t = max(walk.heightM - overlayM, 0.0) * walk.path;
   vec2 at = walk.place + walk.slope * t + vec2(gridBend(walk.bend.x), gridBend(walk.bend.y));
   float distanceM = walk.tStart + t;
   vec2 cell = floor(at);
   vec2 within = at - cell;
   // Tiles a pixel along x and y: a pixel is stretched along the view by the slant.
-  float across = distanceM * u_pixelAngle * u_tilesPerM;
+  float across = distanceM * v_pixelAngle * v_tilesPerM;
   vec2 forward = d.xy / max(length(d.xy), 1e-6);
   vec2 perPixel = across * sqrt(forward * forward / max(d.z * d.z, 1e-6) + forward.yx * forward.yx);
   vec2 borderPixels = min(within, 1.0 - within) / perPixel;
@@ -69,14 +69,14 @@ vec4 tileOverlay(Walk walk, vec3 d) {
 #endif
 
 vec4 finishGround(Walk walk, vec3 d, vec3 value, float left, Level soilLevel, vec3 random) {
-  Site site = sliceSite(soilLevel, u_sliceLayers - 1, slicePlace(walk, soilLevel) + walk.slope * max(walk.tEnd, 0.0));
-  vec3 soil = storedColour(fetchSite(site, soilLevel.start, u_sliceLayers, soilLevel.area, soilLevel.mean));
+  vec2 foot = slicePlace(walk, soilLevel) + walk.slope * max(walk.tEnd, 0.0);
+  vec3 soil = storedColour(fetchSlice(soilLevel, layerStart(soilLevel, v_sliceLayers - 1), foot));
 #if SWARD_SKY
   float behind = walk.slopeZ < 0.0 ? left * u_soilWeight : 0.0;
 #else
   float behind = left * u_soilWeight;
 #endif
-  vec3 seen = (value + behind * kColourUnit * soil) * (u_relightScale * u_exposure);
+  vec3 seen = (value + behind * kColourUnit * soil) * (v_relightScale * v_exposure);
   float ground = (1.0 - left + behind) * u_sampleWeight;
 #if SWARD_MODE == 2
   if (walk.tEnd > 0.0 && walk.slopeZ < 0.0) {

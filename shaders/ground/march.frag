@@ -24,21 +24,42 @@ vec3 g_sum = vec3(0.0);  // in kColourUnit
 
 void composite(uint stored, float depthUnit) {
   float through = transmitted(storedDepth(stored, depthUnit));
-  g_sum += g_transmittance * (1.0 - through) * storedColour(stored);
-  g_transmittance *= through;
+  float opacity = g_transmittance > kTransmittanceEnd ? 1.0 - through : 0.0;
+  g_sum += g_transmittance * opacity * storedColour(stored);
+  g_transmittance -= g_transmittance * opacity;
 }
+
+// Where the march ends: rays cross at most kMaxSteps planes.
+float marchEnd(Planes planes, float tEnd) { return min(tEnd, planes.t + planes.stride * (float(kMaxSteps) - 0.5)); }
+
+// Both marches take two planes at a time, so that the second's fetches need not wait to hear whether the first ended
+// the ray. A second plane beyond tEnd has no depth. Slices look up one tile for both: a second plane that is met on
+// another cell waits for the next step.
 
 #if SWARD_SLICES
 void marchSlices(Walk walk, Level level, float tEnd, float random) {
   Planes planes = slicePlanes(walk, random);
   vec2 place = slicePlace(walk, level);
-  for (int i = 0; i < kMaxSteps; ++i) {
-    if (planes.t >= tEnd || g_transmittance <= kTransmittanceEnd) break;
-    Site site = sliceSite(level, int(planes.place), place + walk.slope * planes.t);
-    uint stored = fetchSite(site, level.start, u_sliceLayers, level.area, level.mean);
-    composite(stored, planes.depthUnit);
-    planes.t += planes.stride;
-    planes.place += planes.step;
+  int start = layerStart(level, int(planes.place));
+  int step = int(planes.step) * level.area;
+  float t = planes.t;
+  float tMarch = marchEnd(planes, tEnd);
+  while (t < tMarch && g_transmittance > kTransmittanceEnd) {
+    float tNext = t + planes.stride;
+    vec2 here = place + walk.slope * t;
+    vec2 next = place + walk.slope * tNext;
+    vec2 cell = floor(here);
+    bool near = floor(next) == cell;
+    bool both = near && tNext < tEnd;
+    int tile = start + tileStart(level, cell);
+    int first = tile + sliceTexel(level, here - cell);
+    int second = both ? tile + step + sliceTexel(level, next - cell) : first;
+    uint firstStored = texelFetch(t_relit, first).r;
+    uint secondStored = texelFetch(t_relit, second).r;
+    composite(firstStored, planes.depthUnit);
+    composite(secondStored, both ? planes.depthUnit : 0.0);
+    t = near ? tNext + planes.stride : tNext;
+    start += near ? 2 * step : step;
   }
 }
 #endif
@@ -47,13 +68,17 @@ void marchSlices(Walk walk, Level level, float tEnd, float random) {
 void marchBlades(Walk walk, Level level, bool axisX, float tEnd, float random) {
   BladeWalk blades = startBlades(walk, level, axisX, random);
   Planes planes = blades.planes;
-  for (int i = 0; i < kMaxSteps; ++i) {
-    if (planes.t >= tEnd || g_transmittance <= kTransmittanceEnd) break;
-    Site site = bladeSite(level, axisX, planes.place, alongAt(blades, planes.t), blades.row + blades.rowSlope * planes.t);
-    uint stored = fetchSite(site, blades.start, u_slabs, level.area, level.mean);
-    composite(stored, planes.depthUnit);
-    planes.t += planes.stride;
-    planes.place += planes.step;
+  float t = planes.t;
+  float across = planes.place;
+  float tMarch = marchEnd(planes, tEnd);
+  while (t < tMarch && g_transmittance > kTransmittanceEnd) {
+    float tNext = t + planes.stride;
+    uint first = fetchAlong(blades, level, axisX, across, t);
+    uint second = fetchAlong(blades, level, axisX, across + planes.step, min(tNext, tEnd));
+    composite(first, planes.depthUnit);
+    composite(second, tNext < tEnd ? planes.depthUnit : 0.0);
+    t = tNext + planes.stride;
+    across += 2.0 * planes.step;
   }
 }
 #endif

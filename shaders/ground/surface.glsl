@@ -1,19 +1,4 @@
 // What march and blending share: the ray in the shell's coordinates, weights of the families, macro variation, haze.
-uniform vec2 u_eyeTiles;       // eye in tiles from the local cell
-uniform float u_eyeM;          // height over the ground
-uniform float u_tilesPerM;
-uniform float u_slabsPerM;
-uniform float u_heightM;       // of the shell
-uniform float u_relightScale;
-uniform float u_cosTheta0;
-uniform float u_slicesFrom;    // |N.E| from which the march draws slices
-uniform float u_slicesAll;     // and from which it draws nothing else
-uniform float u_exposure;
-uniform float u_hazePerM;      // extinction of aerial perspective
-uniform float u_gridBendTiles;  // largest shift of the tiles' grid
-uniform float u_bendTurns;      // turns a tile of its wave
-uniform vec2 u_bendPhase;       // turns at the local cell, of the shift along x and along y
-uniform float u_macroFadePerM;  // 1 / distance at which a pixel covers the macro variation
 uniform samplerBuffer t_horizon;  // sky radiance at the horizon by the azimuth's diamond angle
 
 // A ray's way through the shell. Distances count from where it starts to look, places from the stored map's corner.
@@ -34,7 +19,7 @@ struct Walk {
 // vanishing point; a smoothed triangle stands for the sine.
 float gridBend(float turns) {
   float triangle = abs(fract(turns) - 0.5) * 4.0 - 1.0;
-  return u_gridBendTiles * triangle * (1.5 - 0.5 * triangle * triangle);
+  return v_gridBendTiles * triangle * (1.5 - 0.5 * triangle * triangle);
 }
 
 Walk startWalk(vec3 d) {
@@ -44,25 +29,25 @@ Walk startWalk(vec3 d) {
 #else
   walk.slopeZ = min(d.z, -1e-5);
 #endif
-  bool above = u_eyeM > u_heightM;
+  bool above = v_eyeM > v_heightM;
   bool down = walk.slopeZ < 0.0;
-  walk.slope = d.xy * u_tilesPerM;
-  walk.tEnter = above && down ? (u_heightM - u_eyeM) / walk.slopeZ : 0.0;
+  walk.slope = d.xy * v_tilesPerM;
+  walk.tEnter = above && down ? (v_heightM - v_eyeM) / walk.slopeZ : 0.0;
   walk.tStart = max(walk.tEnter, kNearestM);
-  walk.heightM = u_eyeM + walk.slopeZ * walk.tStart;
+  walk.heightM = v_eyeM + walk.slopeZ * walk.tStart;
   walk.slopeZ = down ? min(walk.slopeZ, -kLeastSlope) : max(walk.slopeZ, kLeastSlope);
   walk.path = 1.0 / abs(walk.slopeZ);
-  walk.tEnd = above && !down ? -1.0 : (down ? walk.heightM : u_heightM - walk.heightM) * walk.path;
-  vec2 tiles = u_eyeTiles + walk.slope * walk.tStart;
+  walk.tEnd = above && !down ? -1.0 : (down ? walk.heightM : v_heightM - walk.heightM) * walk.path;
+  vec2 tiles = v_eyeTiles + walk.slope * walk.tStart;
   walk.place = mapPlace(tiles);
-  walk.bend = tiles.yx * u_bendTurns + u_bendPhase;
-  walk.footprint = (walk.tEnter + min(kLevelShare * max(walk.tEnd, 0.0), kLevelReachM)) * u_pixelAngle;
+  walk.bend = tiles.yx * v_bendTurns + v_bendPhase;
+  walk.footprint = (walk.tEnter + min(kLevelShare * max(walk.tEnd, 0.0), kLevelReachM)) * v_pixelAngle;
   return walk;
 }
 
 // Slices (x = 0) or blades (x = 1), and those normal to x (y = 0) or to y (y = 1): drawn by lot with the weights.
 ivec2 chooseFamily(vec3 d, float lot) {
-  float steep = smoothstep(u_slicesFrom, u_slicesAll, abs(d.z));
+  float steep = smoothstep(v_slicesFrom, v_slicesAll, abs(d.z));
   float towardX = abs(d.x) / max(abs(d.x) + abs(d.y), 1e-6);
   float x = smoothstep(0.5 - kDiagonalFade, 0.5 + kDiagonalFade, towardX);
 #if !(SWARD_FAMILIES & 1)
@@ -91,8 +76,8 @@ struct Planes {
 
 // `random` says where within their slabs the planes lie.
 Planes slicePlanes(Walk walk, float random) {
-  float spacing = u_heightM / float(u_sliceLayers - 1);
-  float under = (u_heightM - walk.heightM) / spacing;  // slabs under the top
+  float spacing = v_heightM / float(v_sliceLayers - 1);
+  float under = (v_heightM - walk.heightM) / spacing;  // slabs under the top
   float depth = 0.5 + clamp(kSlabSpreadM / spacing, kLeastSlabSpread, 1.0) * (random - 0.5);
   bool down = walk.slopeZ < 0.0;
   Planes planes;
@@ -116,10 +101,6 @@ struct BladeWalk {
   int start;
 };
 
-// Where along the planes the ray is, in tiles.
-float alongAt(BladeWalk blades, float t) {
-  return blades.place + blades.slope * t + gridBend(blades.bend + blades.bendSlope * t);
-}
 
 // Where slices and soil are read: nearly straight below where the ray enters, one shift serves the whole ray.
 vec2 slicePlace(Walk walk, Level level) {
@@ -130,48 +111,54 @@ BladeWalk startBlades(Walk walk, Level level, bool axisX, float random) {
   float slope = axisX ? walk.slope.x : walk.slope.y;  // along the normal
   float place = axisX ? walk.place.x : walk.place.y;
   bool backward = slope < 0.0;
-  float rate = max(abs(slope), 1e-6) * float(u_slabs);  // slabs a metre
+  float rate = max(abs(slope), 1e-6) * float(v_slabs);  // slabs a metre
   // Where the ray sinks by less than a few pixels between two slabs, it may skip some.
-  float wanted = min(kStridePixels * u_pixelAngle * walk.tEnter, u_heightM / kHeightSteps) * walk.path;
+  float wanted = min(kStridePixels * v_pixelAngle * walk.tEnter, v_heightM / kHeightSteps) * walk.path;
   float slabs = max(1.0, floor(wanted * rate));
-  float at = place * float(u_slabs);
+  float at = place * float(v_slabs);
   float ahead = backward ? at - floor(at - 0.5) - 0.5 : ceil(at - 0.5) + 0.5 - at;
   ahead += floor(random * slabs);
   BladeWalk blades;
-  blades.planes.step = (backward ? -slabs : slabs) / float(u_slabs);
+  blades.planes.step = (backward ? -slabs : slabs) / float(v_slabs);
   blades.planes.stride = slabs / rate;
   blades.planes.t = ahead / rate;
   // The middle of a slab, found anew so that no rounding pushes it over a slab's border.
-  blades.planes.place = (floor(backward ? at - ahead : at + ahead) + 0.5) / float(u_slabs);
-  blades.planes.depthUnit = blades.planes.stride * u_slabsPerM * kDepthUnit;
+  blades.planes.place = (floor(backward ? at - ahead : at + ahead) + 0.5) / float(v_slabs);
+  blades.planes.depthUnit = blades.planes.stride * v_slabsPerM * kDepthUnit;
   blades.place = (axisX ? walk.place.y : walk.place.x) + level.jitter.x;
   blades.slope = axisX ? walk.slope.y : walk.slope.x;
   blades.bend = axisX ? walk.bend.y : walk.bend.x;
-  blades.bendSlope = slope * u_bendTurns;
-  float rowsPerM = level.rows / u_heightM;
+  blades.bendSlope = slope * v_bendTurns;
+  float rowsPerM = level.rows / v_heightM;
   blades.row = walk.heightM * rowsPerM + level.jitter.y;
   blades.rowSlope = walk.slopeZ * rowsPerM;
-  uint first = axisX ? (backward ? u_bladeBase[0] : u_bladeBase[1]) : (backward ? u_bladeBase[2] : u_bladeBase[3]);
+  uint first = axisX ? (backward ? v_bladeBase[0] : v_bladeBase[1]) : (backward ? v_bladeBase[2] : v_bladeBase[3]);
   blades.start = level.start + int(first);
   return blades;
 }
 
+// What a ray meets at `t` in the plane through `across`.
+uint fetchAlong(BladeWalk blades, Level level, bool axisX, float across, float t) {
+  float along = blades.place + blades.slope * t + gridBend(blades.bend + blades.bendSlope * t);
+  return fetchBlade(level, blades.start, axisX, across, along, blades.row + blades.rowSlope * t);
+}
+
 Level soilLevelOf(Walk walk, vec3 random, float levelJitter) {
   float slant = mix(1.0, walk.path, kSoilLevelSlant);
-  return sliceLevel((walk.tStart + walk.tEnd) * u_pixelAngle * slant, random, levelJitter);
+  return sliceLevel((walk.tStart + walk.tEnd) * v_pixelAngle * slant, random, levelJitter);
 }
 
 // Smooth brightness and hue over metres, from the upper bytes of the map's cells (render/macro_map.h), 128 the mean;
 // fading where a pixel covers its waves. Cells differ little, a jittered place blends them.
 vec3 macroTint(vec2 place, float distanceM, vec3 random) {
   uint word = mapWord(floor(place + random.yx - 0.5));
-  float fade = max(1.0 - distanceM * u_macroFadePerM, 0.0) / 128.0;
+  float fade = max(1.0 - distanceM * v_macroFadePerM, 0.0) / 128.0;
   vec2 v = (vec2(float((word >> 8) & 0xffu), float((word >> 16) & 0xffu)) - 128.0) * fade;
   return (1.0 + v.x) * vec3(1.0 + kHueVariation * v.y, 1.0, 1.0 - 2.0 * kHueVariation * v.y);
 }
 
 vec3 throughHaze(vec3 radiance, vec3 d, float distanceM, float random) {
-  float clear = exp(-u_hazePerM * distanceM);
+  float clear = exp(-v_hazePerM * distanceM);
   vec3 horizon = texelFetch(t_horizon, int((diamondAngle(d.xy) + 0.25) * kHorizonTexels + random)).rgb;
   return mix(horizon, radiance, clear);
 }
@@ -182,21 +169,21 @@ vec3 throughHaze(vec3 radiance, vec3 d, float distanceM, float random) {
 // The picture of a ray that gathered `radiance` (over the relight scale) in the shell and has `left` of its
 // transmittance: soil or sky behind, macro variation, haze, exposure.
 vec4 finishGround(Walk walk, vec3 d, vec3 radiance, float left, Level soilLevel, vec3 random) {
-  Site site = sliceSite(soilLevel, u_sliceLayers - 1, slicePlace(walk, soilLevel) + walk.slope * max(walk.tEnd, 0.0));
-  vec3 soil = storedColour(fetchSite(site, soilLevel.start, u_sliceLayers, soilLevel.area, soilLevel.mean));
+  vec2 foot = slicePlace(walk, soilLevel) + walk.slope * max(walk.tEnd, 0.0);
+  vec3 soil = storedColour(fetchSlice(soilLevel, layerStart(soilLevel, v_sliceLayers - 1), foot));
 #if SWARD_SKY
   bool soilSeen = walk.slopeZ < 0.0;
 #else
   const bool soilSeen = true;
 #endif
   radiance += soilSeen ? left * kColourUnit * soil : vec3(0.0);
-  vec3 grass = radiance * macroTint(walk.place, walk.tEnter, random) * u_relightScale;
+  vec3 grass = radiance * macroTint(walk.place, walk.tEnter, random) * v_relightScale;
 #if SWARD_SKY
   // Rays that reach the sky start in the shell: what they crossed of it is too near for haze.
   vec3 seen = soilSeen ? throughHaze(grass, d, walk.tEnter, random.x) : grass + left * (skyRadiance(d) + sunDisc(d));
 #else
   vec3 seen = throughHaze(grass, d, walk.tEnter, random.x);
 #endif
-  return vec4(seen * u_exposure, 1.0);
+  return vec4(seen * v_exposure, 1.0);
 }
 #endif

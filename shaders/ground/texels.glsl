@@ -5,45 +5,19 @@
 uniform usamplerBuffer t_relit;
 // tile | brightness << 8 | hue << 16, row by row from the south-west, the map's other side repeated as a border
 uniform usamplerBuffer t_map;
-uniform vec2 u_mapSize;
-uniform vec2 u_mapInverse;      // 1 / u_mapSize
-uniform vec2 u_mapOffset;       // map cell of local cell (0, 0)
-uniform float u_mapBorder;      // cells
-uniform float u_mapStride;      // cells in a row, with borders
-uniform int u_tiles;
-uniform float u_pixelAngle;     // width of a pixel at unit distance
 
-uniform int u_sliceSize;        // texels along a tile
-uniform int u_sliceMaxLevel;
-uniform int u_slicePlanes;      // images x layers
-uniform int u_sliceLayers;      // with the soil, the last
-uniform float u_slicesPerM;     // texels a metre
 
-uniform ivec2 u_bladeSize;
-uniform int u_bladeMaxLevel;
-uniform int u_bladeVerticalLevels;
-uniform int u_bladePlanes;
-uniform int u_slabs;            // of a tile
-uniform float u_bladesPerM;     // texels a metre
-uniform uint u_bladeBase[4];    // where the sets seen from +x, -x, +y, -y start
 
 // A mip level of a set, chosen once a ray: the distance changes too little within the shell to change it.
 struct Level {
   int start;          // first texel of the level
   int area;           // texels of a plane
   int width;
-  int planesPerTile;
+  int tileArea;       // texels of a tile's planes
   float columns;      // width and height as floats
   float rows;
   vec2 jitter;        // in tiles along a row, and in rows (slices: tiles)
-  bool mean;          // a pixel covers more than a tile: the mean over all tiles stands for every tile
-};
-
-// A texel of a set before its tile is known.
-struct Site {
-  vec2 cell;
-  int plane;   // of the tile
-  int within;  // the plane
+  int leastTile;      // where a pixel covers more than a tile that of the mean, which stands for every tile; else 0
 };
 
 // floor(log2(texels in the footprint) + a number in [0, 1)), from the exponent of a float.
@@ -52,74 +26,74 @@ int mipLevel(float footprintTexels, float levelJitter) {
 }
 
 Level sliceLevel(float footprintM, vec3 random, float levelJitter) {
-  int wanted = mipLevel(footprintM * u_slicesPerM, levelJitter);
-  int level = min(wanted, u_sliceMaxLevel);
+  int wanted = mipLevel(footprintM * v_slicesPerM, levelJitter);
+  int level = min(wanted, v_sliceMaxLevel);
   Level l;
-  l.width = u_sliceSize >> level;
+  l.width = v_sliceSize >> level;
   l.area = l.width * l.width;
-  l.start = levelOffset(level, u_sliceSize * u_sliceSize, u_slicePlanes);
-  l.planesPerTile = u_sliceLayers;
+  l.start = levelOffset(level, v_sliceSize * v_sliceSize, v_slicePlanes);
+  l.tileArea = l.area * v_sliceLayers;
   l.columns = float(l.width);
   l.rows = l.columns;
   l.jitter = (random.xy - 0.5) / l.columns;
-  l.mean = wanted > u_sliceMaxLevel;
+  l.leastTile = wanted > v_sliceMaxLevel ? v_tiles : 0;
   return l;
 }
 
 Level bladeLevel(float footprintM, vec3 random, float levelJitter) {
-  int wanted = mipLevel(footprintM * u_bladesPerM, levelJitter);
-  int level = min(wanted, u_bladeMaxLevel);
-  int height = u_bladeSize.y >> min(level, u_bladeVerticalLevels);
+  int wanted = mipLevel(footprintM * v_bladesPerM, levelJitter);
+  int level = min(wanted, v_bladeMaxLevel);
+  int height = v_bladeSize.y >> min(level, v_bladeVerticalLevels);
   Level l;
-  l.width = u_bladeSize.x >> level;
+  l.width = v_bladeSize.x >> level;
   l.area = l.width * height;
-  l.start = levelOffset(level, u_bladeSize.x * u_bladeSize.y, u_bladePlanes);
-  l.planesPerTile = u_slabs;
+  l.start = levelOffset(level, v_bladeSize.x * v_bladeSize.y, v_bladePlanes);
+  l.tileArea = l.area * v_slabs;
   l.columns = float(l.width);
   l.rows = float(height);
   l.jitter = vec2((random.x - 0.5) / l.columns, random.y - 0.5);
-  l.mean = wanted > u_bladeMaxLevel;
+  l.leastTile = wanted > v_bladeMaxLevel ? v_tiles : 0;
   return l;
-}
-
-// The slice texel of a layer at a place in tiles, jittered already.
-Site sliceSite(Level l, int layer, vec2 place) {
-  Site site;
-  site.cell = floor(place);
-  ivec2 texel = ivec2((place - site.cell) * l.columns);
-  site.plane = layer;
-  site.within = texel.y * l.width + texel.x;
-  return site;
-}
-
-// A blade texel: `across` and `along` count tiles along the planes' normal and along the plane, `row` rows from -1/2 up;
-// jittered already. axisX says that the planes are normal to x.
-Site bladeSite(Level l, bool axisX, float across, float along, float row) {
-  float cellAlong = floor(along);
-  float cellAcross = floor(across);
-  Site site;
-  site.cell = axisX ? vec2(cellAcross, cellAlong) : vec2(cellAlong, cellAcross);
-  site.plane = int((across - cellAcross) * float(u_slabs));
-  site.within = int(min(row, l.rows - 1.0)) * l.width + int((along - cellAlong) * l.columns);
-  return site;
 }
 
 // A place in tiles from the local cell, moved by whole maps into the stored one: once a ray, which then walks on over
 // the border (a ray that leaves even that is opaque, or so distant that any tile will do).
 vec2 mapPlace(vec2 tiles) {
   vec2 cell = floor(tiles);
-  vec2 wrapped = cell + u_mapOffset;
-  wrapped -= u_mapSize * floor((wrapped + 0.5) * u_mapInverse);
-  return tiles - cell + wrapped + u_mapBorder;
+  vec2 wrapped = cell + v_mapOffset;
+  wrapped -= v_mapSize * floor((wrapped + 0.5) * v_mapInverse);
+  return tiles - cell + wrapped + v_mapBorder;
 }
 
-uint mapWord(vec2 cell) { return texelFetch(t_map, int(cell.y * u_mapStride + cell.x)).r; }
+uint mapWord(vec2 cell) { return texelFetch(t_map, int(cell.y * v_mapStride + cell.x)).r; }
 
-// The stored texel at a site; `start` is where its level starts in the buffer.
-uint fetchSite(Site site, int start, int planesPerTile, int area, bool mean) {
-  int tile = int(mapWord(site.cell) & 0xffu);
-  tile = mean ? u_tiles : tile;
-  return texelFetch(t_relit, start + (tile * planesPerTile + site.plane) * area + site.within).r;
+// First texel of the planes of the tile on a cell, counted from the first tile's.
+int tileStart(Level l, vec2 cell) { return max(int(mapWord(cell) & 0xffu), l.leastTile) * l.tileArea; }
+
+// First texel of a slice layer of the first tile.
+int layerStart(Level l, int layer) { return l.start + layer * l.area; }
+
+// The texel of a slice layer at a place in a tile, from its corner in tiles.
+int sliceTexel(Level l, vec2 place) {
+  ivec2 texel = ivec2(place * l.columns);
+  return texel.y * l.width + texel.x;
+}
+
+// The stored texel of the slice layer that starts at `start`, at a place in tiles, jittered already.
+uint fetchSlice(Level l, int start, vec2 place) {
+  vec2 cell = floor(place);
+  return texelFetch(t_relit, start + tileStart(l, cell) + sliceTexel(l, place - cell)).r;
+}
+
+// A stored blade texel: `across` and `along` count tiles along the planes' normal and along the plane, `row` rows from
+// -1/2 up; jittered already. axisX says that the planes are normal to x, `start` where the level of their set starts.
+uint fetchBlade(Level l, int start, bool axisX, float across, float along, float row) {
+  float cellAlong = floor(along);
+  float cellAcross = floor(across);
+  int plane = int((across - cellAcross) * float(v_slabs));
+  int within = int(min(row, l.rows - 1.0)) * l.width + int((along - cellAlong) * l.columns);
+  vec2 cell = axisX ? vec2(cellAcross, cellAlong) : vec2(cellAlong, cellAcross);
+  return texelFetch(t_relit, start + tileStart(l, cell) + plane * l.area + within).r;
 }
 
 // Stored bytes to floats without their scale: colours in units of kColourUnit once squared.

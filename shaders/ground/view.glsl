@@ -1,14 +1,10 @@
 // The ray of a pixel and the random numbers of a sample.
-uniform vec2 u_pixelScale;    // pixel to [-1, 1]
-uniform vec2 u_pixelOffset;   // with the sample's place in the pixel
-uniform vec3 u_viewRight;     // times the tangent of half the field of view
-uniform vec3 u_viewUp;
-uniform vec3 u_viewForward;
-uniform vec3 u_sampleShift;   // of the random numbers, another for every sample of a picture
+#include "ground/frame.glsl"
+
 
 vec3 viewRay(vec2 pixel) {
-  vec2 p = pixel * u_pixelScale + u_pixelOffset;
-  return normalize(u_viewForward + p.x * u_viewRight + p.y * u_viewUp);
+  vec2 p = pixel * v_pixelScale + v_pixelOffset;
+  return normalize(v_viewForward + p.x * v_viewRight + p.y * v_viewUp);
 }
 
 // Three numbers in [0, 1) of a pixel (PCG3D, Jarzynski and Olano 2020), shifted by the sample's (Cranley and Patterson).
@@ -21,7 +17,7 @@ vec3 pixelRandom(ivec2 pixel) {
   v.x += v.y * v.z;
   v.y += v.z * v.x;
   v.z += v.x * v.y;
-  return fract(vec3(v >> 8u) * (1.0 / 16777216.0) + u_sampleShift);
+  return fract(vec3(v >> 8u) * (1.0 / 16777216.0) + v_sampleShift);
 }
 
 // A fourth number that is independent of any two of the three.

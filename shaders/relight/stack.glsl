@@ -1,5 +1,5 @@
 // A LayerStack's bytes as 32-bit words (core/lpt/layer_stack.h), and its response to one light.
-// Defines: SWARD_LPT (1: ten coefficients a column; 0: six a texel), SWARD_CHANNELS, SWARD_BITS, SWARD_TRANSMISSION.
+// Defines: SWARD_LPT (1: coefficients belong to columns; 0: to texels), SWARD_PER_ITEM (how many), SWARD_CHANNELS, SWARD_BITS, SWARD_TRANSMISSION.
 
 uniform usamplerBuffer t_coefficients;
 uniform usamplerBuffer t_surface;
@@ -14,18 +14,14 @@ uniform float u_constants[6];    // [channel][A, B, C]
 uniform vec3 u_sun;              // sun irradiance / pi / relight scale
 uniform vec3 u_skyLight;         // mean sky radiance / relight scale
 
-#if SWARD_LPT
-const int kPerItem = 10;
-#else
-const int kPerItem = 6;
-#endif
+const int kPerItem = SWARD_PER_ITEM;
 const int kPerWord = 32 / SWARD_BITS;
 const int kValues = kPerItem * SWARD_CHANNELS;
 const uint kMask = SWARD_BITS == 8 ? 0xffu : 0xffffu;
 
 // All coefficients of one column (LPT) or texel (PTM), still quantised.
 void loadCoefficients(int item, out float q[kValues]) {
-#if (SWARD_LPT * 10 + (1 - SWARD_LPT) * 6) * SWARD_CHANNELS * SWARD_BITS % 32 == 0
+#if SWARD_PER_ITEM * SWARD_CHANNELS * SWARD_BITS % 32 == 0
   const int kWords = kValues / kPerWord;
   for (int word = 0; word < kWords; ++word) {
     uint bits = texelFetch(t_coefficients, item * kWords + word).r;
@@ -85,7 +81,7 @@ vec2 texelResponse(
   loadCoefficients(texel, q);
   for (int c = 0; c < SWARD_CHANNELS; ++c) {
     f[c] = u_constants[c * 3];
-    for (int j = 0; j < 6; ++j) f[c] += u_weights[c * 10 + j] * q[c * 6 + j];
+    for (int j = 0; j < kPerItem; ++j) f[c] += u_weights[c * 10 + j] * q[c * kPerItem + j];
   }
 #endif
   return max(f, vec2(0.0));

@@ -9,7 +9,9 @@ namespace sward::test {
 struct Outcome {
   int exitCode = -1;  ///< -1 when a signal ended it
   std::string out, err;
-  double seconds = 0.0;  ///< after the signal where one was sent, else in all
+  /// Processor time of all threads after the signal where one was sent, else in all: unlike the clock's, it does not
+  /// depend on what else the machine does.
+  double processorSeconds = 0.0;
 };
 
 /// Runs the built program with these arguments in `folder` and waits for it. With `interruptAfter` >= 0, sends SIGINT

@@ -1,0 +1,140 @@
+#include "report/choice_trial.h"
+
+#include "bake/bake.h"
+#include "bake/ground_plan.h"
+#include "bake/plants.h"
+#include "bake/soil.h"
+#include "render/display.h"
+#include "render/frame_plan.h"
+#include "render/renderer.h"
+#include "report/row.h"
+#include "trace/reference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace sward::report {
+namespace {
+
+constexpr int kReferenceSamples = 64;
+constexpr int kTimedFrames = 3;
+
+/// What the views of one candidate share.
+struct Bench {
+  const project::Project& project;  ///< with the candidate applied
+  std::shared_ptr<const bake::GroundBake> ground;
+  scene::Daylight daylight;
+  render::Renderer& renderer;
+  const trace::PatchScene& patch;
+  trace::GroundPlan plan;
+};
+
+/// RMSE of display values that a noise of this variance makes: half the difference that one standard deviation to
+/// either side makes, a value at a time.
+double displayNoise(const image::Image& mean, const image::Image& variance, render::ViewTransform transform) {
+  image::Image above = mean, below = mean;
+  for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
+    const float deviation = std::sqrt(std::max(variance.pixels[i], 0.0f));
+    above.pixels[i] += deviation;
+    below.pixels[i] = std::max(below.pixels[i] - deviation, 0.0f);
+  }
+  above = render::toDisplay(above, transform);
+  below = render::toDisplay(below, transform);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < above.pixels.size(); ++i) {
+    const double half = 0.5 * static_cast<double>(above.pixels[i] - below.pixels[i]);
+    sum += half * half;
+  }
+  return above.pixels.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(above.pixels.size()));
+}
+
+Result<ViewError> compareView(const Bench& bench, const scene::View& view, const JobContext& job) {
+  SWARD_ASSIGN(render::Frame frame, render::planFrame(bench.project, view, bench.daylight));
+  frame.width = kTrialWidth;
+  frame.height = kTrialHeight;
+  frame.options.macroVariation = 0.0;  // a choice of taste, no error
+  SWARD_ASSIGN(const image::Image drawn, bench.renderer.drawDisplay(frame));
+  trace::ReferenceOptions options;
+  options.width = frame.width;
+  options.height = frame.height;
+  options.gridBendM = frame.options.gridBendM;
+  options.exposure = frame.exposure;
+  SWARD_ASSIGN(std::vector<glm::vec3> soil, bake::soilColours(bench.project, bench.plan.patchTexels));
+  SWARD_ASSIGN(const auto reference,
+               trace::Reference::create(
+                   {&bench.patch, &bench.plan, std::move(soil), bench.daylight, bench.project.sky.hazeKm, {}},
+                   frame.camera, options));
+  SWARD_TRY(reference->addSamples(kReferenceSamples, job));
+  const image::Image truth = reference->mean();
+  ViewError error;
+  error.name = view.name;
+  error.noise = displayNoise(truth, reference->variance(), frame.options.viewTransform);
+  const image::Image shown = render::toDisplay(truth, frame.options.viewTransform);
+  SWARD_ASSIGN(error.figures, image::compareDisplayImages({shown, drawn}, {}, job));
+  return error;
+}
+
+/// Milliseconds of a frame, the mean of the views.
+Result<double> drawTime(const Bench& bench, const std::vector<scene::View>& views) {
+  double sum = 0.0;
+  for (const scene::View& view : views) {
+    SWARD_ASSIGN(render::Frame frame, render::planFrame(bench.project, view, bench.daylight));
+    frame.width = kTrialWidth;
+    frame.height = kTrialHeight;
+    Result<void> outcome;
+    sum += timeRuns(kTimedFrames, [&] {
+             if (outcome.ok()) outcome = bench.renderer.drawOnly(frame);
+           }).median;
+    SWARD_TRY(std::move(outcome));
+  }
+  return sum / static_cast<double>(views.size());
+}
+
+}  // namespace
+
+double ViewError::value(ErrorBound metric) const {
+  const double rmse = std::sqrt(std::max(figures.rmse * figures.rmse - noise * noise, 0.0));
+  switch (metric) {
+    case ErrorBound::Psnr:
+      // Equal pictures: as good as any bound that can be stated.
+      return rmse > 0.0 ? -20.0 * std::log10(rmse) : 1000.0;
+    case ErrorBound::Ssim:
+      return figures.ssim;
+    case ErrorBound::Flip:
+      return figures.flip;
+    default:
+      return rmse;
+  }
+}
+
+Result<TrialMeasurement> measureTrial(const ChoiceInput& input, const Candidate& candidate, bool floor,
+                                      const JobContext& job) {
+  project::Project project = input.project;
+  applyCandidate(candidate, project);
+  if (floor) project.fit.basis = lpt::Basis::Sampled;
+  const JobContext quiet{job.stop, {}, job.threads};
+  bake::Baker baker;
+  SWARD_ASSIGN(auto ground, baker.ground(project, quiet));
+  SWARD_ASSIGN(scene::Patch grown, bake::growPatch(project));
+  SWARD_ASSIGN(const auto patch,
+               trace::PatchScene::create(std::make_shared<const scene::Patch>(std::move(grown)), quiet));
+  SWARD_ASSIGN(const scene::Daylight daylight, render::daylightOf(project));
+  SWARD_ASSIGN(const auto renderer, render::Renderer::create(input.context));
+  SWARD_TRY(renderer->setGround(ground));
+  renderer->setDaylight(daylight, project.sky.hazeKm);
+  const Bench bench{project, ground, daylight, *renderer, *patch, bake::groundPlan(*ground)};
+  TrialMeasurement measured;
+  for (const scene::View& view : input.views) {
+    SWARD_ASSIGN(measured.views.emplace_back(), compareView(bench, view, quiet));
+  }
+  SWARD_ASSIGN(measured.drawMs, drawTime(bench, input.views));
+  Result<void> outcome;
+  measured.relightMs = timeRuns(kTimedFrames, [&] {
+                         if (outcome.ok()) outcome = renderer->relight(daylight, false);
+                       }).median;
+  SWARD_TRY(std::move(outcome));
+  return measured;
+}
+
+}  // namespace sward::report

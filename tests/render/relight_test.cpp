@@ -15,7 +15,7 @@ using testing::storageBound;
 
 class RelitTexels : public ::testing::TestWithParam<std::tuple<lpt::Basis, int>> {};
 INSTANTIATE_TEST_SUITE_P(Bases, RelitTexels,
-                         ::testing::Combine(::testing::Values(lpt::Basis::Lpt, lpt::Basis::Ptm),
+                         ::testing::Combine(::testing::Values(lpt::Basis::Lpt, lpt::Basis::Ptm, lpt::Basis::Constant),
                                             ::testing::Values(8, 16)));
 
 void expectSameAsOnTheCpu(render::Renderer& renderer, const bake::GroundBake& ground, const lpt::LayerStack& stack,

@@ -22,7 +22,7 @@ struct Layers {
     const std::size_t texels =
         static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(layers);
     const std::size_t items = options.basis == lpt::Basis::Lpt ? texels / static_cast<std::size_t>(layers) : texels;
-    input.coefficients.assign(items * 2 * (options.basis == lpt::Basis::Lpt ? 10 : 6), 0.0f);
+    input.coefficients.assign(items * 2 * static_cast<std::size_t>(lpt::stackCoefficients(options.basis)), 0.0f);
     input.coverage.assign(texels, 0.0f);
     input.reflectance.assign(texels, glm::vec3(0.1f));
     input.transmittance.assign(texels, glm::vec3(0.05f));
@@ -54,7 +54,7 @@ void writeResponse(Layers& layers, int layer, int x, int y, const Point& point) 
   lpt::LayerStackInput& in = layers.input;
   const bool lptBasis = in.basis == lpt::Basis::Lpt;
   const std::size_t item = lptBasis ? layers.texel(0, x, y) : layers.texel(layer, x, y);
-  const std::size_t count = lptBasis ? 10 : 6;
+  const auto count = static_cast<std::size_t>(lpt::stackCoefficients(in.basis));
   const auto a = static_cast<float>(0.5 * point.shade);
   const glm::vec2 n = glm::vec2(point.facing) * static_cast<float>(0.12 * point.shade);
   for (std::size_t channel = 0; channel < 2; ++channel) {
@@ -65,6 +65,8 @@ void writeResponse(Layers& layers, int layer, int x, int y, const Point& point) 
       const float values[10] = {-0.1f * a,   -0.15f * a, 0.1f * a,   0.02f,      0.01f * n.x,
                                 0.01f * n.y, sign * n.x, sign * n.y, -0.15f * a, level};
       std::copy(std::begin(values), std::end(values), b);
+    } else if (in.basis == lpt::Basis::Constant) {
+      *b = level + 0.3f * n.x;
     } else {
       const float values[6] = {-0.1f * a, -0.15f * a, 0.02f, sign * n.x, sign * n.y, level};
       std::copy(std::begin(values), std::end(values), b);
@@ -172,7 +174,8 @@ lpt::LayerStackInput cutTiles(const SyntheticOptions& options, const lpt::LayerS
   out.transmittance.clear();
   out.sky.clear();
   const bool perColumn = patch.basis == lpt::Basis::Lpt;
-  const std::size_t count = static_cast<std::size_t>(patch.channels) * (perColumn ? 10 : 6);
+  const std::size_t count =
+      static_cast<std::size_t>(patch.channels) * static_cast<std::size_t>(lpt::stackCoefficients(patch.basis));
   for (int tile = 0; tile < options.tiles; ++tile) {
     const glm::ivec2 corner = tileCorner(options, tile);
     for (int layer = 0; layer < patch.layers; ++layer) {

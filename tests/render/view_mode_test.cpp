@@ -110,7 +110,7 @@ double responseOf(lpt::LayerStack stack, int layer, const glm::dvec3& sun) {
 }
 
 TEST_F(Modes, LuminanceIsTheResponseToTheSunWhateverTheColour) {
-  for (const auto basis : {lpt::Basis::Lpt, lpt::Basis::Ptm}) {
+  for (const auto basis : {lpt::Basis::Lpt, lpt::Basis::Ptm, lpt::Basis::Constant}) {
     auto options = dense();
     options.basis = basis;
     setGround(testing::syntheticGround(options));
@@ -188,7 +188,7 @@ TEST_F(Modes, CoefficientsShowTheirSign) {
     setGround(testing::syntheticGround(options));
     // The synthetic response: the first is -a / 10 of the reflected level a, the last a itself; a = 1/2 where lit
     // fully.
-    const int last = basis == lpt::Basis::Lpt ? 9 : 5;
+    const int last = lpt::stackCoefficients(basis) - 1;
     for (const auto channel : {render::ResponseChannel::Reflected, render::ResponseChannel::Transmitted}) {
       const double level = channel == render::ResponseChannel::Reflected ? 0.5 : 0.3;
       for (const auto& [coefficient, expected] : {std::pair{0, -0.05}, std::pair{last, level}}) {

@@ -68,7 +68,7 @@ TEST_F(ReportCommand, WritesAPageWhoseFiguresFollowFromItsFiles) {
   EXPECT_EQ(report, Json::parse(outcome.out));
   EXPECT_GT(report["sections"]["speed"]["rows"].size(), 20u);
   const std::string page = contents("r/report.html");
-  EXPECT_THAT(page, AllOf(HasSubstr("sward report p.sward -o r --quick --section speed --json --cache "),
+  EXPECT_THAT(page, AllOf(HasSubstr("<span class=\"word\">--quick</span> <span class=\"word\">--section</span> speed"),
                           HasSubstr("id=\"speed\""), HasSubstr("layer_sampling"), testing::EndsWith("</html>\n")));
   const auto [code, said] = recompute(work() / "r");
   EXPECT_EQ(code, 0) << said;

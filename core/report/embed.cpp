@@ -11,11 +11,13 @@
 namespace sward::report {
 namespace {
 
-Result<PagePicture> writePicture(const std::filesystem::path& folder, const Picture& picture) {
+Result<PagePicture> writePicture(const std::filesystem::path& folder, const Picture& picture, const JobContext& job) {
   const image::Image& display = picture.display;
   SWARD_ASSIGN(const std::vector<std::byte> whole, image::encodePng(display));
   SWARD_TRY(base::writeFileAtomically(folder / (picture.name + ".png"), whole));
+  if (job.cancelled()) return Error::cancelled();
   if (!picture.linear.empty()) SWARD_TRY(image::writeExr(folder / (picture.name + ".exr"), picture.linear));
+  if (job.cancelled()) return Error::cancelled();
   const int factor = (display.width + kEmbeddedWidth - 1) / kEmbeddedWidth;
   std::string data;
   if (factor > 1 && display.height >= factor) {
@@ -56,7 +58,7 @@ Result<std::map<std::string, PagePicture>> writePictures(const std::filesystem::
   std::vector<std::optional<Result<PagePicture>>> written(pictures.size());
   base::ProgressCounter progress(job, "writing pictures", pictures.size());
   base::parallelFor(job, pictures.size(), 1, [&](std::size_t begin, std::size_t) {
-    written[begin] = writePicture(folder, *pictures[begin]);
+    written[begin] = writePicture(folder, *pictures[begin], job);
     progress.add();
   });
   if (job.cancelled()) return Error::cancelled();

@@ -30,6 +30,18 @@ std::string entry(const std::string& name, const std::string& valueHtml) {
   return "<div><dt>" + escaped(name) + "</dt><dd>" + valueHtml + "</dd></div>\n";
 }
 
+/// A command whose lines break between words alone: browsers break within "--section" else.
+std::string commandHtml(const std::string& command) {
+  std::string out;
+  for (std::size_t start = 0; start < command.size();) {
+    const std::size_t end = std::min(command.find(' ', start), command.size());
+    const std::string word = escaped(command.substr(start, end - start));
+    out += (out.empty() ? "" : " ") + (word.starts_with('-') ? "<span class=\"word\">" + word + "</span>" : word);
+    start = end + 1;
+  }
+  return "<code>" + out + "</code>";
+}
+
 std::string machineHtml(const Machine& machine) {
   std::string out = "<dl>\n";
   if (!machine.cpu.empty()) out += entry("Processor", escaped(machine.cpu));
@@ -48,7 +60,7 @@ std::string machineHtml(const Machine& machine) {
 std::string settingsHtml(const ReportHead& head, const std::vector<Section>& sections) {
   std::string out = "<dl>\n" + entry("Sward", escaped(head.version));
   if (!head.project.empty()) out += entry("Project", "<code>" + escaped(head.project) + "</code>");
-  if (!head.commandLine.empty()) out += entry("Command", "<code>" + escaped(head.commandLine) + "</code>");
+  if (!head.commandLine.empty()) out += entry("Command", commandHtml(head.commandLine));
   out += entry("Effort", head.quick ? "quick: fewer runs, smaller sizes" : "full");
   for (const auto& [name, value] : head.settings) out += entry(name, escaped(value));
   std::string seconds;

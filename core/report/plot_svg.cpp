@@ -252,7 +252,7 @@ std::string Drawing::labels() {
     const double gapX = right ? box->left - mark->x : left ? mark->x - box->right : 0.0;
     const double gapY = std::max({box->top - mark->y, mark->y - box->bottom, 0.0});
     // Too far to be read as the marker's own.
-    if (std::hypot(gapX, gapY) > 12.0) {
+    if (std::hypot(gapX, gapY) > 15.0) {
       const double endY = std::clamp(mark->y, box->top, box->bottom);
       out += line(mark->x, mark->y, right ? box->left - 1.0 : left ? box->right + 1.0 : x, endY, "sw-leader");
     }

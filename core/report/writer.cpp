@@ -9,6 +9,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -22,6 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array kSubfolders{"plots", "pictures", "tables"};
 constexpr const char* kListing = "files.txt";
+constexpr const char* kStaging = ".writing-";  ///< and the process that writes
 
 bool nameCharacter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
@@ -76,6 +80,18 @@ std::vector<std::string> listedFiles(const fs::path& folder) {
   return files;
 }
 
+/// Hidden folders of processes that were killed before they could remove them.
+void removeForsaken(const fs::path& folder) {
+  std::error_code code;
+  for (const auto& entry : fs::directory_iterator(folder, code)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(kStaging)) continue;
+    const long process = std::strtol(name.c_str() + std::string_view(kStaging).size(), nullptr, 10);
+    const bool gone = process > 0 && ::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH;
+    if (gone) fs::remove_all(entry.path(), code);
+  }
+}
+
 }  // namespace
 
 Result<void> checkReportFolder(const fs::path& folder) {
@@ -125,7 +141,8 @@ Result<void> StagedReport::makeFolders() {
     if (fs::create_directory(*folder, code)) m_made.push_back(*folder);
     if (code) return notWritable(*folder, code.message());
   }
-  const fs::path staging = m_folder / (".writing-" + std::to_string(::getpid()));
+  removeForsaken(m_folder);
+  const fs::path staging = m_folder / (kStaging + std::to_string(::getpid()));
   fs::create_directory(staging, code);
   if (code) return notWritable(m_folder, code.message());
   m_staging = staging;

@@ -4,15 +4,13 @@
 
 #include "bake/small_project.h"
 #include "bake/temporary_folder.h"
+#include "report/recompute.h"
 
-#include <array>
-#include <cstdio>
 #include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
 
 namespace sward {
 namespace {
@@ -46,18 +44,6 @@ class ReportCommand : public testing::Test {
   test::TemporaryFolder m_folder;
 };
 
-/// What tests/report/recompute.py says of a report, and its exit code.
-std::pair<int, std::string> recompute(const fs::path& report) {
-  const std::string command =
-      std::string(SWARD_PYTHON) + " " + SWARD_SOURCE_DIR + "/tests/report/recompute.py '" + report.string() + "' 2>&1";
-  std::FILE* pipe = ::popen(command.c_str(), "r");
-  if (pipe == nullptr) return {-1, "cannot start it"};
-  std::string said;
-  std::array<char, 4096> buffer{};
-  while (std::fgets(buffer.data(), buffer.size(), pipe) != nullptr) said += buffer.data();
-  return {WEXITSTATUS(::pclose(pipe)), said};
-}
-
 TEST_F(ReportCommand, WritesAPageWhoseFiguresFollowFromItsFiles) {
   const test::Outcome outcome = run({"report", "p.sward", "-o", "r", "--quick", "--section", "speed", "--json"});
   ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
@@ -68,9 +54,9 @@ TEST_F(ReportCommand, WritesAPageWhoseFiguresFollowFromItsFiles) {
   EXPECT_EQ(report, Json::parse(outcome.out));
   EXPECT_GT(report["sections"]["speed"]["rows"].size(), 20u);
   const std::string page = contents("r/report.html");
-  EXPECT_THAT(page, AllOf(HasSubstr("sward report p.sward -o r --quick --section speed --json --cache "),
+  EXPECT_THAT(page, AllOf(HasSubstr("<span class=\"word\">--quick</span> <span class=\"word\">--section</span> speed"),
                           HasSubstr("id=\"speed\""), HasSubstr("layer_sampling"), testing::EndsWith("</html>\n")));
-  const auto [code, said] = recompute(work() / "r");
+  const auto [code, said] = report::test::recompute(work() / "r");
   EXPECT_EQ(code, 0) << said;
 }
 

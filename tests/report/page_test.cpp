@@ -34,9 +34,9 @@ TEST(Page, IsWellFormedAndWhole) {
   EXPECT_EQ(test::markupProblem(page, test::MarkupKind::Html), "");
   for (const char* part :
        {"<h1>Example: speed against error</h1>", "id=\"speed\"", "id=\"lpt_fit\"", "href=\"#lpt_fit\"",
-        "A second paragraph", "sward report fields/example.sward -o report", "0.0.test", "llvmpipe", "lpt_fit 12.2",
-        "in all 48.8", "Lower left is better", "Low suns are harder", "pictures/fit_lpt8.exr",
-        "tables/lpt_fit_truth_0.npy", "2 × 3", "prefers-color-scheme"}) {
+        "A second paragraph", "<code>sward report fields/example.sward <span class=\"word\">-o</span> report</code>",
+        "0.0.test", "llvmpipe", "lpt_fit 12.2", "in all 48.8", "Lower left is better", "Low suns are harder",
+        "pictures/fit_lpt8.exr", "tables/lpt_fit_truth_0.npy", "2 × 3", "prefers-color-scheme"}) {
     EXPECT_THAT(page, HasSubstr(part));
   }
   EXPECT_THAT(page, Not(HasSubstr("pictures/fit_difference.exr"))) << "there is none";

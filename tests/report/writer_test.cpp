@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 namespace sward::report {
@@ -98,6 +99,22 @@ TEST_F(Writer, NothingIsSeenBeforeItIsAllThere) {
     for (const std::string& name : entriesOf(folder())) EXPECT_EQ(name.front(), '.') << name;
   }
   EXPECT_THAT(entriesOf(root()), IsEmpty()) << "nothing stays of a report that was not committed, its folder neither";
+}
+
+TEST_F(Writer, RemovesWhatKilledProcessesLeft) {
+  const pid_t gone = ::fork();
+  if (gone == 0) ::_exit(0);
+  ASSERT_GT(gone, 0);
+  ASSERT_EQ(::waitpid(gone, nullptr, 0), gone);
+  const std::string forsaken = ".writing-" + std::to_string(gone), alive = ".writing-" + std::to_string(::getppid());
+  for (const std::string& name : {forsaken, alive, std::string(".writing-mine")}) {
+    fs::create_directories(folder() / name / "pictures");
+  }
+  ASSERT_TRUE(write({}).ok());
+  const auto left = entriesOf(folder());
+  EXPECT_THAT(left, testing::Not(testing::Contains(forsaken)));
+  EXPECT_THAT(left, testing::Contains(alive)) << "another report may be on its way";
+  EXPECT_THAT(left, testing::Contains(".writing-mine"));
 }
 
 TEST_F(Writer, TakesThePlaceOfTheReportBefore) {

@@ -38,15 +38,24 @@ const viewer = document.createElement("dialog");
 viewer.innerHTML = "<img alt=''><p></p>";
 document.body.append(viewer);
 const viewed = {strip: [], index: 0};
+const whole = new Map();  // from a figure to its picture in full size, where the folder beside the page has it
+function loadWhole(figure) {
+  if (whole.has(figure)) return;
+  const image = new Image();
+  whole.set(figure, image);
+  image.addEventListener("load", () => { if (viewer.open && viewed.strip[viewed.index] === figure) show(viewed.index); });
+  image.src = figure.querySelector("a.enlarge").href;
+}
 function show(index) {
   viewed.index = (index + viewed.strip.length) % viewed.strip.length;
   const figure = viewed.strip[viewed.index];
   const caption = figure.querySelector("figcaption").firstChild.textContent.trim();
   const image = viewer.querySelector("img");
-  image.src = figure.querySelector("img").src;
+  const full = whole.get(figure);
+  image.src = full !== undefined && full.naturalWidth > 0 ? full.src : figure.querySelector("img").src;
   image.alt = caption;
   const words = viewer.querySelector("p");
-  words.textContent = caption + "  ";
+  words.textContent = caption;
   const help = document.createElement("span");
   help.textContent = (viewed.index + 1) + " of " + viewed.strip.length + "; arrow keys change, Esc closes";
   words.append(help);
@@ -56,6 +65,7 @@ for (const link of document.querySelectorAll("a.enlarge")) {
     event.preventDefault();
     const figure = link.closest("figure");
     viewed.strip = Array.from(figure.parentElement.children);
+    viewed.strip.forEach(loadWhole);
     show(viewed.strip.indexOf(figure));
     viewer.showModal();
   });

@@ -127,8 +127,8 @@ void describe(A& a, typename A::template Ref<report::AccuracyOptions> v) {
   a.field("metric", v.metric,
           of(Role::Shape)
               .says("Metric",
-                    "How the error against the ray-traced reference is counted. Rendering then picks "
-                    "layers, lights and fit itself."));
+                    "How the error against the ray-traced reference is counted. The commands render and bake then "
+                    "pick layers, lights and fit; the window shows the project's own."));
   a.field("bound", v.bound,
           range(0.0, 1000.0)
               .soft(0.0, 1.0)

@@ -217,6 +217,7 @@ Result<base::Hash128> choiceKey(const ChoiceInput& input) {
   hasher.add(std::string_view(project::toJson(input.project)));
   for (const scene::View& view : input.views) hasher.add(std::string_view(view.name));
   hasher.add(std::string_view(input.context.info().renderer));
+  hasher.add(input.size.width).add(input.size.height).add(input.size.samples);
   return hasher.finish();
 }
 
@@ -264,7 +265,7 @@ Result<Choice> chooseCheapest(const ChoiceInput& input, const JobContext& job) {
   if (input.views.empty()) {
     return Error::badInput("there is no view to measure errors in", "views", "Add a view to the project.");
   }
-  ChoiceInput few{input.project, input.views, input.context, input.cacheFolder};
+  ChoiceInput few{input.project, input.views, input.context, input.cacheFolder, input.size};
   if (few.views.size() > kViews) few.views.resize(kViews);
   SWARD_ASSIGN(const base::Hash128 key, choiceKey(few));
   std::optional<bake::DiskCache> cache;

@@ -35,7 +35,7 @@ struct Trial {
   bool floor = false;  ///< Basis::Sampled: what layers, texels and drawing cost, without any fit
   double value = 0.0;  ///< of the metric, the worst of the views
   std::string worstView;
-  double drawMs = 0.0;     ///< of a frame of kTrialWidth x kTrialHeight, the mean of the views
+  double drawMs = 0.0;     ///< of a frame of the trial's size, the mean of the views
   double relightMs = 0.0;  ///< when the sun moves
   bool meets = false;
 };
@@ -50,7 +50,11 @@ struct Choice {
 /// Sentences for people: what was chosen, why, and what else was measured.
 std::string choiceText(const Choice& choice);
 
-inline constexpr int kTrialWidth = 320, kTrialHeight = 180;
+/// The pictures that candidates are judged by.
+struct TrialSize {
+  int width = 320, height = 180;
+  int samples = 32;  ///< of the reference, a pixel
+};
 
 struct ChoiceInput {
   const project::Project& project;  ///< valid; its accuracy says the bound
@@ -58,6 +62,7 @@ struct ChoiceInput {
   gpu::Context& context;            ///< current on this thread
   /// Remembered choices; nothing else is written there. Empty: none.
   std::filesystem::path cacheFolder;
+  TrialSize size = {};
 };
 
 /// Measures candidates from the cheapest on until one keeps the bound in every view. For every pair of layers and

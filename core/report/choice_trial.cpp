@@ -19,12 +19,12 @@
 namespace sward::report {
 namespace {
 
-constexpr int kReferenceSamples = 32;
 constexpr int kTimedFrames = 3;
 
 /// What the views of one candidate share.
 struct Bench {
   const project::Project& project;  ///< with the candidate applied
+  const TrialSize& size;
   std::shared_ptr<const bake::GroundBake> ground;
   scene::Daylight daylight;
   render::Renderer& renderer;
@@ -73,7 +73,7 @@ Result<ReferenceStore::Truth> traceView(const Bench& bench, const render::Frame&
                trace::Reference::create(
                    {&bench.patch, &bench.plan, std::move(soil), bench.daylight, bench.project.sky.hazeKm, {}},
                    frame.camera, options));
-  SWARD_TRY(reference->addSamples(kReferenceSamples, job));
+  SWARD_TRY(reference->addSamples(bench.size.samples, job));
   const image::Image truth = reference->mean();
   const render::ViewTransform transform = frame.options.viewTransform;
   return ReferenceStore::Truth{render::toDisplay(truth, transform),
@@ -83,8 +83,8 @@ Result<ReferenceStore::Truth> traceView(const Bench& bench, const render::Frame&
 Result<ViewError> compareView(const Bench& bench, const scene::View& view, ReferenceStore& references,
                               const JobContext& job) {
   SWARD_ASSIGN(render::Frame frame, render::planFrame(bench.project, view, bench.daylight));
-  frame.width = kTrialWidth;
-  frame.height = kTrialHeight;
+  frame.width = bench.size.width;
+  frame.height = bench.size.height;
   frame.options.macroVariation = 0.0;  // a choice of taste, no error
   SWARD_ASSIGN(const image::Image drawn, bench.renderer.drawDisplay(frame));
   const base::Hash128 key = truthKey(bench.plan, view);
@@ -105,8 +105,8 @@ Result<double> drawTime(const Bench& bench, const std::vector<scene::View>& view
   double sum = 0.0;
   for (const scene::View& view : views) {
     SWARD_ASSIGN(render::Frame frame, render::planFrame(bench.project, view, bench.daylight));
-    frame.width = kTrialWidth;
-    frame.height = kTrialHeight;
+    frame.width = bench.size.width;
+    frame.height = bench.size.height;
     Result<void> outcome;
     sum += timeRuns(kTimedFrames, [&] {
              if (outcome.ok()) outcome = bench.renderer.drawOnly(frame);
@@ -148,7 +148,7 @@ Result<TrialMeasurement> measureTrial(const ChoiceInput& input, const Candidate&
   SWARD_ASSIGN(const auto renderer, render::Renderer::create(input.context));
   SWARD_TRY(renderer->setGround(ground));
   renderer->setDaylight(daylight, project.sky.hazeKm);
-  const Bench bench{project, ground, daylight, *renderer, *patch, bake::groundPlan(*ground)};
+  const Bench bench{project, input.size, ground, daylight, *renderer, *patch, bake::groundPlan(*ground)};
   TrialMeasurement measured;
   for (const scene::View& view : input.views) {
     SWARD_ASSIGN(measured.views.emplace_back(), compareView(bench, view, references, quiet));

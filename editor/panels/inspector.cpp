@@ -138,6 +138,9 @@ void InspectorPanel::draw(PanelContext& context) {
     case Selection::Kind::Render:
       fields(
           context, "render", [](project::Project & p) -> auto& { return p.render; });
+      heading("Accuracy");
+      fields(
+          context, "accuracy", [](project::Project & p) -> auto& { return p.accuracy; });
       heading("Size of the picture");
       fields(
           context, "output", [](project::Project & p) -> auto& { return p.output; });

@@ -2,6 +2,9 @@
 
 #include "base/check.h"
 
+#include <array>
+#include <charconv>
+
 namespace sward::report {
 namespace {
 
@@ -14,6 +17,12 @@ void appendLine(const std::vector<std::string>& fields, std::size_t columns, std
 }
 
 }  // namespace
+
+std::string csvNumber(double value) {
+  std::array<char, 32> text{};  // 24 at most: sign, 17 digits, point, exponent
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
 
 std::string csvField(std::string_view text) {
   const bool blankEnds = !text.empty() && (text.front() == ' ' || text.back() == ' ');

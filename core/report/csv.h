@@ -7,6 +7,9 @@
 
 namespace sward::report {
 
+/// A number as a field: the shortest text that reads back as the same double.
+std::string csvNumber(double value);
+
 /// A field of RFC 4180: quoted where it holds a comma, a quote or a line break, or starts or ends with a blank.
 std::string csvField(std::string_view text);
 

@@ -40,6 +40,7 @@ std::string headerHtml(const TableColumn& column) {
 std::string noteMarks(const TableCell& cell, const RowTable& table, const std::string& anchor) {
   std::string out;
   for (const std::size_t note : cell.notes) {
+    if (!out.empty()) out += "<sup>, </sup>";
     const std::string number = std::to_string(note + 1);
     out += "<sup><a href=\"#" + anchor + "-note-" + number + "\"" + hintAttribute(table.notes[note]) + ">" + number +
            "</a></sup>";

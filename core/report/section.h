@@ -61,8 +61,16 @@ struct Plot {
   std::vector<Series> series;
 };
 
-/// Measured values from which rows were computed, so that others can compute them again: NAME.csv, or an array of
-/// 32-bit floats in NumPy's format, NAME.npy, under tables/.
+/// Measured values from which rows were computed, so that others can compute them again (tests/report/recompute.py
+/// does): NAME.csv, or an array of 32-bit floats in NumPy's format, NAME.npy, under tables/.
+/// Errors of light responses: SECTION_lights.csv has a line for every method and held-out light, with the columns
+///   method, light (index), weight (sum of w), squares (sum of w e^2), sum (sum of w e), max (greatest |e|, w above 0)
+/// in nine digits at least, e = method - truth and w the weights of the values. Further columns are named as
+/// parameters of rows. A row is made of the lines that have its method and, in each of those columns, its parameter (or
+/// where that is "all", any): rmse = sqrt(squares / weight), bias = sum / weight, max. Of some lights K the values
+/// themselves stand in arrays of one shape: SECTION_weight, SECTION_truth_K, SECTION_METHOD_K; they make the first
+/// line of their method and light. A parameter rmse_over_METHOD is the row's rmse over that of METHOD's row with the
+/// same parameters in the columns.
 struct Table {
   std::string name;
   std::vector<std::string> columns;

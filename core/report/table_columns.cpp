@@ -252,7 +252,9 @@ void Filler::rates() {
   for (std::size_t i = 0; i < m_rows.size(); ++i) {
     const Row& row = *m_rows[i];
     if (!row.rate) continue;
-    made.cells[i].text = prefixedText(*row.rate) + (one || row.rateUnit.empty() ? "" : row.rateUnit + "/s");
+    std::string text = prefixedText(*row.rate);
+    if (!one && !row.rateUnit.empty()) text += (text.back() == ' ' ? "" : " ") + row.rateUnit + "/s";
+    made.cells[i].text = text;
     made.cells[i].number = row.rate;
   }
   if (one) made.numeric = true;
@@ -274,7 +276,8 @@ void Filler::ratios() {
   for (std::size_t i = 0; i < m_rows.size(); ++i) {
     if (!m_rows[i]->ratio) continue;
     made.cells[i].number = m_rows[i]->ratio;
-    if (against.size() > 1) noteCell(made.cells[i], m_rows[i]->against);
+    if (against.size() > 1 && !m_rows[i]->against.empty())
+      noteCell(made.cells[i], "Ratio against " + m_rows[i]->against);
   }
   if (against.size() == 1 && !against.begin()->empty()) m_table.alike.emplace_back("ratio against", *against.begin());
   add(std::move(made));

@@ -45,19 +45,30 @@ class ReportCommand : public testing::Test {
 };
 
 TEST_F(ReportCommand, WritesAPageWhoseFiguresFollowFromItsFiles) {
-  const test::Outcome outcome = run({"report", "p.sward", "-o", "r", "--quick", "--section", "speed", "--json"});
+  const test::Outcome outcome = run({"report", "p.sward", "-o", "r", "--quick", "--json"});
   ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("layer_sampling: "), HasSubstr("edit_stall: "), HasSubstr("seconds: speed "),
-                                 HasSubstr("wrote r/report.html"), HasSubstr("storage (lpt, bits 8, ")));
-  EXPECT_THAT(test::listing(work() / "r"), ElementsAre("files.txt", "report.html", "report.json"));
+  EXPECT_THAT(outcome.err,
+              AllOf(HasSubstr("layer_sampling: "), HasSubstr("edit_stall: "), HasSubstr("seconds: speed "),
+                    HasSubstr("in all "), HasSubstr("wrote r/report.html"), HasSubstr("storage (lpt, bits 8, ")));
+  EXPECT_THAT(test::listing(work() / "r"), testing::IsSupersetOf({"files.txt", "report.html", "report.json"}));
   const Json report = Json::parse(contents("r/report.json"));
   EXPECT_EQ(report, Json::parse(outcome.out));
   EXPECT_GT(report["sections"]["speed"]["rows"].size(), 20u);
   const std::string page = contents("r/report.html");
-  EXPECT_THAT(page, AllOf(HasSubstr("<span class=\"word\">--quick</span> <span class=\"word\">--section</span> speed"),
-                          HasSubstr("id=\"speed\""), HasSubstr("layer_sampling"), testing::EndsWith("</html>\n")));
+  EXPECT_THAT(page, AllOf(HasSubstr("sward report p.sward <span class=\"word\">-o</span> r"),
+                          HasSubstr("layer_sampling"), testing::EndsWith("</html>\n")));
+  for (const auto& [section, rows] : report["sections"].items()) {
+    EXPECT_THAT(page, HasSubstr("<section class=\"chapter\" id=\"" + section + "\">"));
+  }
   const auto [code, said] = report::test::recompute(work() / "r");
   EXPECT_EQ(code, 0) << said;
+}
+
+TEST_F(ReportCommand, MeasuresTheSectionsThatAreNamed) {
+  const test::Outcome outcome = run({"report", "p.sward", "-o", "r", "--quick", "--section", "speed,speeed"});
+  EXPECT_EQ(outcome.exitCode, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("there is no section \"speeed\". Did you mean \"speed\"? Sections: speed"));
+  EXPECT_THAT(test::listing(work()), ElementsAre("p.sward"));
 }
 
 TEST_F(ReportCommand, CtrlCLeavesNothingHalfWritten) {

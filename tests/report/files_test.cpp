@@ -27,6 +27,14 @@ TEST(Csv, QuotesWhatNeedsIt) {
   EXPECT_EQ(csvField("Gräser"), "Gräser");
 }
 
+TEST(Csv, NumbersReadBackAsTheyWere) {
+  EXPECT_EQ(csvNumber(0.1), "0.1");
+  EXPECT_EQ(csvNumber(-3.0), "-3");
+  for (const double value : {1.0 / 3.0, 1e-300, 0.1 + 0.2, -std::numeric_limits<double>::max()}) {
+    EXPECT_EQ(std::stod(csvNumber(value)), value);
+  }
+}
+
 TEST(Csv, EveryRowHasEveryColumn) {
   const Table table{"t", {"a", "b,c", "d"}, {{"1", "2", "3"}, {"4"}, {}}};
   EXPECT_EQ(csvText(table), "a,\"b,c\",d\n1,2,3\n4,,\n,,\n");

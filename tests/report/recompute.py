@@ -13,7 +13,8 @@ What is checked (core/report/section.h has the conventions):
   picture rows    rmse, bias, max from the linear pictures/NAME.exr; psnr_db, ssim, flip from what the view transform
                   that the row names makes of them
   plots           that the page holds a plot for each file
-  tables          that every table is rectangular
+  lights          rmse, bias and max of rows from the sums over their lights in tables/SECTION_lights.csv, those sums
+                  from the arrays of the lights that were kept, and rmse over that of another method
 Tolerances are derived where they are used; the largest come from EXR's half floats. FLIP takes seconds a picture: it
 is computed again for the first three rows that have it.
 """

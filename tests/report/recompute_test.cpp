@@ -5,6 +5,7 @@
 
 #include "bake/temporary_folder.h"
 #include "image/colour.h"
+#include "report/csv.h"
 #include "report/example.h"
 #include "report/writer.h"
 
@@ -102,6 +103,54 @@ TEST_F(Recompute, FindsEveryFigureThatIsOff) {
     EXPECT_THAT(said, HasSubstr(std::string("grassland[0] march: ") + name));
   }
   EXPECT_THAT(said, HasSubstr(" 7 do not agree"));
+}
+
+/// Two methods under two lights, at places "on" and "between"; the values of light 1 are kept.
+std::vector<Section> lightSections() {
+  const std::vector<float> weight{0.5f, 1.0f, 0.0f}, truth{0.25f, 0.5f, 0.0f};
+  Section section;
+  section.name = "lpt_fit";
+  section.arrays = {{"lpt_fit_weight", {3}, weight}, {"lpt_fit_truth_1", {3}, truth}};
+  Table lights{"lpt_fit_lights", {"method", "place", "light", "weight", "squares", "sum", "max"}, {}};
+  for (const char* method : {"ptm", "lpt8"}) {
+    const double off = method[0] == 'p' ? 0.125 : 0.25;
+    // Errors: off, -off, and one without weight.
+    section.arrays.push_back({std::string("lpt_fit_") + method + "_1",
+                              {3},
+                              {0.25f + static_cast<float>(off), 0.5f - static_cast<float>(off), 9.0f}});
+    for (const char* place : {"on", "between"}) {
+      for (const char* light : {"0", "1"}) {
+        lights.rows.push_back(
+            {method, place, light, "1.5", csvNumber(1.5 * off * off), csvNumber(-0.5 * off), csvNumber(off)});
+      }
+    }
+    for (const char* place : {"all", "on", "between"}) {
+      Row row;
+      row.method = method;
+      row.numbersAndNames = {{"place", "\"" + std::string(place) + "\""},
+                             {"rmse_over_ptm", method[0] == 'p' ? "1.0" : "2.0"}};
+      row.error = {{"rmse", off}, {"bias", -off / 3.0}, {"max", off}, {"psnr_db", -20.0 * std::log10(off)}};
+      section.rows.push_back(row);
+    }
+  }
+  section.tables = {lights};
+  return {section};
+}
+
+TEST_F(Recompute, SumsOverLightsGiveTheirRows) {
+  const auto [code, said] = of(lightSections());
+  EXPECT_EQ(code, 0) << said;
+  auto sections = lightSections();
+  sections[0].tables[0].rows[0][4] = "0.0235";  // of ptm, on, light 0: its rows "all" and "on"
+  sections[0].rows[5].error["rmse"] = 0.2501;   // and so its PSNR, and its ratio
+  sections[0].arrays[1].values[1] = 0.51f;      // the truth of light 1: squares, sum and max of both methods
+  const std::string wrong = of(sections).second;
+  for (const char* place :
+       {"lpt_fit[0] ptm: rmse is", "lpt_fit[1] ptm: rmse is", "lpt_fit[5] lpt8: rmse is", "lpt_fit[5] lpt8: psnr_db is",
+        "lpt_fit[5] lpt8: rmse_over_ptm is", "lpt_fit_ptm_1.npy: squares is", "lpt_fit_ptm_1.npy: sum is",
+        "lpt_fit_lpt8_1.npy: squares is", "lpt_fit_lpt8_1.npy: max is"}) {
+    EXPECT_THAT(wrong, HasSubstr(place));
+  }
 }
 
 TEST_F(Recompute, FindsFilesThatAreMissing) {

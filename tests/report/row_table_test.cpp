@@ -113,7 +113,7 @@ TEST(RowTable, RatiosSayAgainstWhat) {
   EXPECT_THAT(rowTables(rows)[0].alike, ElementsAre(Pair("ratio against", "a bare loop")));
   rows[1].against = "a limit";
   const auto tables = rowTables(rows);
-  EXPECT_THAT(tables[0].notes, ElementsAre("a bare loop", "a limit"));
+  EXPECT_THAT(tables[0].notes, ElementsAre("Ratio against a bare loop", "Ratio against a limit"));
   EXPECT_EQ(column(tables[0], "ratio").cells[2].notes, std::vector<std::size_t>{0});
 }
 

@@ -18,7 +18,7 @@ Result<std::optional<report::Choice>> chooseBake(const Program& program, project
   std::optional<report::Choice> choice;
   {
     ProgressBar bar(program);
-    SWARD_ASSIGN(choice, report::chooseCheapest({project, views, context, cacheFolder(program)}, bar.job()));
+    SWARD_ASSIGN(choice, report::chooseCheapest({project, views, context, cacheFolder(program), {}}, bar.job()));
   }
   report::applyCandidate(choice->chosen, project);
   SWARD_TRY(project::requireValid(project));

@@ -50,12 +50,17 @@ Result<std::vector<Row>> drawnRows(const CauseInput& input, const JobContext& jo
     row.reference = std::move(against);
     rows.push_back(std::move(row));
   };
+  SWARD_ASSIGN(image::Image stored, draw(input, grounds.project, kMarch));
+  if (grounds.whole) {
+    SWARD_ASSIGN(image::Image whole, draw(input, grounds.whole, kMarch));
+    compare("range_clamp", whole, stored, "coefficients cut off at the project's quantile against none cut off",
+            "drawn with the whole range");
+    stored = std::move(whole);
+  }
   image::Image fine;
   if (grounds.fine) {
-    SWARD_ASSIGN(const image::Image own, draw(input, grounds.project, kMarch));
     SWARD_ASSIGN(fine, draw(input, grounds.fine, kMarch));
-    compare("quantisation", fine, own, "the project's bits and range against 16 bits of the whole range",
-            "drawn with 16 bits");
+    compare("quantisation", fine, stored, "the project's bits against 16", "drawn with 16 bits");
   }
   if (!grounds.exact) return rows;
   SWARD_ASSIGN(const image::Image exact, draw(input, grounds.exact, kMarch));
@@ -107,9 +112,14 @@ Result<std::vector<Row>> truthRows(const CauseInput& input, const JobContext& jo
 Result<CauseGrounds> bakeCauseGrounds(const project::Project& project, std::shared_ptr<const bake::GroundBake> ground,
                                       bake::Baker& baker, const JobContext& job) {
   CauseGrounds out;
-  project::Project fine = project, exact = project;
-  fine.fit.bits = exact.fit.bits = 16;
-  fine.fit.clampQuantile = exact.fit.clampQuantile = 0.0;
+  project::Project whole = project;
+  whole.fit.clampQuantile = 0.0;
+  project::Project fine = whole;
+  fine.fit.bits = 16;
+  project::Project exact = fine;
+  if (project.fit.clampQuantile > 0.0) {
+    SWARD_ASSIGN(out.whole, baker.ground(whole, job));
+  }
   exact.fit.basis = lpt::Basis::Sampled;
   SWARD_ASSIGN(out.fine, baker.ground(fine, job));
   SWARD_ASSIGN(out.exact, baker.ground(exact, job));
@@ -119,6 +129,7 @@ Result<CauseGrounds> bakeCauseGrounds(const project::Project& project, std::shar
 
 Result<std::vector<Row>> causeRows(const CauseInput& input, const JobContext& job) {
   CauseGrounds grounds = input.grounds;
+  if (grounds.whole && !input.truth.laysSame(*grounds.whole)) grounds.whole = nullptr;
   if (grounds.fine && !input.truth.laysSame(*grounds.fine)) grounds.fine = nullptr;
   if (grounds.exact && !input.truth.laysSame(*grounds.exact)) grounds.exact = nullptr;
   const CauseInput checked{input.renderer, input.truth, grounds, input.frame, input.samples};

@@ -20,10 +20,7 @@
 namespace sward::report {
 namespace {
 
-struct Sizes {
-  int width, height, samples, causeSamples, runs;
-};
-constexpr Sizes kFull{480, 270, 32, 8, 7}, kQuick{240, 136, 16, 4, 3};
+constexpr GrasslandSizes kQuick{240, 136, 16, 4, 3};
 
 struct Drawn {
   const char* name;
@@ -42,7 +39,7 @@ std::string quoted(const std::string& text) {
 /// What all views share.
 struct Bench {
   const SectionInput& input;
-  Sizes sizes;
+  GrasslandSizes sizes;
   std::shared_ptr<const bake::GroundBake> ground;
   scene::Daylight daylight;
   std::unique_ptr<render::Renderer> renderer;
@@ -178,14 +175,15 @@ Plot paretoOf(const std::vector<Row>& rows) {
   return plot;
 }
 
-Result<Bench> makeBench(const SectionInput& input, bake::Baker& baker, const JobContext& job) {
+Result<Bench> makeBench(const SectionInput& input, const GrasslandSizes& sizes, bake::Baker& baker,
+                        const JobContext& job) {
   SWARD_ASSIGN(auto ground, baker.ground(input.project, job));
   SWARD_ASSIGN(const scene::Daylight daylight, render::daylightOf(input.project));
   SWARD_ASSIGN(auto renderer, render::Renderer::create(input.context));
   SWARD_TRY(renderer->setGround(ground));
   renderer->setDaylight(daylight, input.project.sky.hazeKm);
   SWARD_ASSIGN(GroundTruth truth, GroundTruth::create(input.project, *ground, daylight, job));
-  return Bench{input, input.quick ? kQuick : kFull, std::move(ground), daylight, std::move(renderer), std::move(truth)};
+  return Bench{input, sizes, std::move(ground), daylight, std::move(renderer), std::move(truth)};
 }
 
 constexpr const char* kSummary =
@@ -198,6 +196,10 @@ constexpr const char* kSummary =
 }  // namespace
 
 Result<Section> grasslandSection(const SectionInput& input, const JobContext& job) {
+  return measureGrassland(input, input.quick ? kQuick : GrasslandSizes{}, job);
+}
+
+Result<Section> measureGrassland(const SectionInput& input, const GrasslandSizes& sizes, const JobContext& job) {
   const JobContext quiet{job.stop, {}, job.threads};
   const auto step = [&](const std::string& name, double fraction) {
     if (job.onProgress) job.onProgress(name, fraction);
@@ -205,7 +207,7 @@ Result<Section> grasslandSection(const SectionInput& input, const JobContext& jo
   step("bake", 0.0);
   SWARD_ASSIGN(bake::DiskCache cache, bake::DiskCache::open(input.cacheFolder));
   bake::Baker baker(std::move(cache));
-  SWARD_ASSIGN(Bench bench, makeBench(input, baker, quiet));
+  SWARD_ASSIGN(Bench bench, makeBench(input, sizes, baker, quiet));
   Section section;
   section.name = "grassland";
   section.title = "Grassland";

@@ -4,6 +4,7 @@
 #include "gpu/program.h"
 #include "render/renderer.h"
 #include "render/shader_files.h"
+#include "report/speed_views.h"
 #include "report/text.h"
 #include "scene/camera.h"
 #include "scene/lights.h"
@@ -19,9 +20,6 @@ namespace sward::report {
 namespace {
 
 constexpr int kWidth = 1280, kHeight = 720;
-constexpr int kTilesInView = 200;
-constexpr double kFocalLengthMm = 35.0;
-constexpr double kNearM = 3.0, kEyeM = 1.7;
 constexpr double kMarchLimitMs = 50.0, kRelightLimitMs = 20.0;  ///< targets of the first step
 constexpr int kRuns = 9, kQuickRuns = 3;
 
@@ -98,24 +96,9 @@ class Yardstick {
   int m_count = 0;
 };
 
-/// A view of the speed rows: the eye over the origin, `slantDeg` under the horizon, `distanceM` from what it looks at.
-struct SpeedView {
-  std::string method;
-  double slantDeg = 90.0;
-  double distanceM = 3.0;
-};
-
-Result<render::Frame> frameOf(const SpeedView& speedView, double exposure) {
-  const double slant = speedView.slantDeg * 3.14159265358979323846 / 180.0;
-  scene::View view;
-  view.target = glm::dvec3(0.13, 0.07, 0.0);
-  // Looking a little off north, so that no family of planes lies along the picture.
-  const double across = std::cos(slant) * speedView.distanceM;
-  view.position =
-      view.target + glm::dvec3(-0.3 * across, -std::sqrt(0.91) * across, std::sin(slant) * speedView.distanceM);
-  view.focalLengthMm = kFocalLengthMm;
+Result<render::Frame> frameOf(const SpeedView& view, double exposure) {
   render::Frame frame;
-  SWARD_ASSIGN(frame.camera, scene::cameraFromView(view));
+  SWARD_ASSIGN(frame.camera, cameraOf(view));
   frame.width = kWidth;
   frame.height = kHeight;
   frame.exposure = exposure;
@@ -188,7 +171,7 @@ Result<Row> marchRow(Bench& bench, const SpeedView& view) {
       },
       [&] { bench.yardstick.fetch(layers); });
   SWARD_TRY(std::move(outcome));
-  Row row = timedRow(view.method, march, fetches,
+  Row row = timedRow(view.name, march, fetches,
                      "a bare loop of " + std::to_string(layers) + " nearest fetches a pixel, neither lit nor blended");
   row.numbersAndNames = frameNumbers(bench, view);
   row.notes = limitNote(march.median, kMarchLimitMs);
@@ -230,14 +213,13 @@ Result<std::vector<Row>> renderRows(gpu::Context& context, std::shared_ptr<const
   Bench bench{std::move(renderer),    ground, daylight, std::move(yardstick), quick ? kQuickRuns : kRuns,
               context.info().renderer};
   // So far away that the picture is as wide as the tiles.
-  const double farM = kTilesInView * ground->tileSideM() * kFocalLengthMm / scene::kSensorWidthMm;
-  const double grazingM = 0.5 * kTilesInView * ground->tileSideM();
-  const double grazingDeg = std::asin(std::min(kEyeM / grazingM, 1.0)) * 180.0 / 3.14159265358979323846;
+  const double farM = kTilesInView * ground->tileSideM() * kSpeedFocalLengthMm / scene::kSensorWidthMm;
+  SpeedView grazing = grazingView(ground->tileSideM());
+  grazing.name = "march_grazing";
   std::vector<Row> rows;
   SWARD_ASSIGN(Row relit, relightRow(bench));
   rows.push_back(std::move(relit));
-  for (const SpeedView& view : {SpeedView{"march_down", 90.0, farM}, SpeedView{"march_45", 45.0, farM},
-                                SpeedView{"march_grazing", grazingDeg, grazingM},
+  for (const SpeedView& view : {SpeedView{"march_down", 90.0, farM}, SpeedView{"march_45", 45.0, farM}, grazing,
                                 SpeedView{"march_down_near", 90.0, kNearM}, SpeedView{"march_45_near", 45.0, kNearM}}) {
     SWARD_ASSIGN(Row row, marchRow(bench, view));
     rows.push_back(std::move(row));

@@ -178,7 +178,7 @@ Result<std::unique_ptr<Reference>> Reference::create(ReferenceScene scene, const
   SWARD_CHECK(scene.patch != nullptr && scene.plan != nullptr);
   SWARD_ASSIGN(TiledGround ground, TiledGround::create(*scene.plan, scene.patch->patch()));
   SWARD_TRY(checkScene(scene, camera, options));
-  SkyLight sky(scene.daylight, scene.uniformSky);
+  SkyLight sky(scene.daylight, scene.evenSkyLight ? scene.evenSkyLight : scene.uniformSky);
   SunLight sun(scene.daylight, options.sunRadiusDeg);
   HorizonSky horizon(scene.daylight, scene.uniformSky);
   return std::unique_ptr<Reference>(std::make_unique<TracedReference>(

@@ -25,7 +25,9 @@ struct ReferenceScene {
   scene::Daylight daylight;
   double hazeKm = 0.0;  ///< distance at which aerial perspective hides 63 %, as the renderer has it; 0: none
   /// Radiance of the sky in all directions instead of the daylight's: for a furnace and other closed forms.
-  std::optional<glm::dvec3> uniformSky;
+  std::optional<glm::dvec3> uniformSky{};
+  /// The same of the sky as a light alone; what is seen of it stays the daylight's.
+  std::optional<glm::dvec3> evenSkyLight{};
 };
 
 /// Where shadow rays and bounces go.

@@ -2,6 +2,7 @@
 
 #include "app/stall_report.h"
 #include "project/nearest.h"
+#include "report/section_grassland.h"
 #include "report/section_tiles.h"
 #include "report/speed.h"
 
@@ -69,6 +70,8 @@ std::vector<SectionEntry> reportSections(const Program& program, const std::stri
   return {
       {"speed", "every step's rate, time and bytes against its limit or yardstick", speed, 60.0},
       {"tiles", "what seams cost, and how much maps and pictures repeat", report::tilesSection, 15.0},
+      {"grassland", "drawing methods against the ray-traced meadow, and what each step costs", report::grasslandSection,
+       80.0},
   };
 }
 

@@ -56,7 +56,7 @@ struct Stage {
   std::optional<glm::dvec3> uniformSky;
 
   std::unique_ptr<Reference> reference(const scene::Camera& camera, const ReferenceOptions& options) const {
-    auto made = Reference::create({traced.get(), &plan, soil, daylight, hazeKm, uniformSky}, camera, options);
+    auto made = Reference::create({traced.get(), &plan, soil, daylight, hazeKm, uniformSky, {}}, camera, options);
     EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().text());
     return made.ok() ? std::move(made).value() : nullptr;
   }

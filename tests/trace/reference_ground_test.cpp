@@ -341,7 +341,7 @@ TEST(ReferenceCreate, RefusesWhatDoesNotFit) {
   const scene::Camera camera = meadowCamera();
   const auto fails = [&](const Stage& stage, const ReferenceOptions& options = smallPicture()) {
     const auto made =
-        Reference::create({stage.traced.get(), &stage.plan, stage.soil, stage.daylight, 0.0, {}}, camera, options);
+        Reference::create({stage.traced.get(), &stage.plan, stage.soil, stage.daylight, 0.0, {}, {}}, camera, options);
     return !made.ok() && made.error().kind == ErrorKind::BadInput;
   };
   EXPECT_FALSE(fails(good));

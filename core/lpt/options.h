@@ -36,7 +36,7 @@ struct FitOptions {
   Basis basis = Basis::Lpt;
   int clusters = 2;           ///< 2 or 4, of Basis::Clustered
   bool paper = false;         ///< no ridge, weights delta alone, not centred: the paper's own fit, for comparison
-  double layerRidge = 0.02;   ///< >= 0, on the coefficients that contain v, relative to the summed weight of the rows
+  double layerRidge = 0.005;  ///< >= 0, on the coefficients that contain v, relative to the summed weight of the rows
   double lightRidge = 0.002;  ///< >= 0, on those of the light alone; the constant is free
   int bits = 8;               ///< of a quantised coefficient: 8 or 16
   double clampQuantile =

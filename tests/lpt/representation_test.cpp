@@ -306,61 +306,86 @@ TEST(Representation, GroupsNeverFitWorseThanOnePolynomial) {
   }
 }
 
-TEST(Representation, AdaptiveGroupsExplainAtLeastWhatEqualOnesDo) {
-  // The summed objective, ridges included, written out: each group's own fit, in v of its own mean.
-  const Scene scene = randomScene(150, 16, 15, 2, 58);
-  for (const int clusters : {2, 4}) {
-    const FitOptions options{.clusters = clusters};
-    const auto best = detail::bestGroups(scene.input(), options, clusters, {});
-    const auto equal = detail::equalGroups(16, clusters);
-    const auto objective = [&](int column, std::span<const std::uint16_t> start) {
-      double sum = 0.0;
-      for (std::size_t g = 0; g <= start.size(); ++g) {
-        const int from = g == 0 ? 0 : start[g - 1], to = g == start.size() ? 16 : start[g];
-        Scene run;
-        run.layers = 16, run.channels = 2, run.lights = scene.lights;
-        double weight = 0.0, mean = 0.0;
-        std::vector<std::size_t> texels;
-        const auto at = static_cast<std::size_t>(column);
-        for (std::size_t t = scene.columnStart[at]; t < scene.columnStart[at + 1]; ++t) {
-          if (scene.layer[t] < from || scene.layer[t] >= to) continue;
-          texels.push_back(t);
-          const double w =
-              std::max(static_cast<double>(scene.visibility[t]), 0.5 / 16.0) * static_cast<double>(scene.coverage[t]);
-          weight += w, mean += w * scene.u(t);
-        }
-        if (texels.empty()) continue;
-        mean /= weight;
-        run.columns = 1;
-        run.columnStart = {0, static_cast<std::uint32_t>(texels.size())};
-        run.samples.resize(30);
-        for (const std::size_t t : texels) {
-          run.layer.push_back(scene.layer[t]);
-          run.coverage.push_back(scene.coverage[t]);
-          run.visibility.push_back(scene.visibility[t]);
-          for (std::size_t i = 0; i < 30; ++i) run.samples[i].push_back(scene.samples[i][t]);
-        }
-        const Fit fit = fitted(run, options);
-        sum += fittedErrors(*represented(run, options), run)[0] / 15.0;
-        for (int c = 0; c < 2; ++c) {
-          const auto b = fit.column(0, c);
-          const auto d = [&](std::size_t j) { return static_cast<double>(b[j]); };
-          const double b6 = d(6) + d(4) * mean, b7 = d(7) + d(5) * mean, b8 = d(8) + d(2) * mean;
-          sum += weight * (options.layerRidge * (d(2) * d(2) + d(4) * d(4) + d(5) * d(5) + b8 * b8) +
-                           options.lightRidge * (d(0) * d(0) + d(1) * d(1) + d(3) * d(3) + b6 * b6 + b7 * b7));
-        }
-      }
-      return sum;
-    };
+/// What groups are chosen by, written out: each group's own fit, in v of its own mean, ridges included.
+double objective(const Scene& scene, const FitOptions& options, int column, std::span<const std::uint16_t> start) {
+  double sum = 0.0;
+  for (std::size_t g = 0; g <= start.size(); ++g) {
+    const int from = g == 0 ? 0 : start[g - 1], to = g == start.size() ? scene.layers : start[g];
+    Scene run;
+    run.layers = scene.layers, run.channels = scene.channels, run.lights = scene.lights;
+    run.samples.resize(scene.samples.size());
+    double weight = 0.0, mean = 0.0;
+    const auto at = static_cast<std::size_t>(column);
+    for (std::size_t t = scene.columnStart[at]; t < scene.columnStart[at + 1]; ++t) {
+      if (scene.layer[t] < from || scene.layer[t] >= to) continue;
+      run.layer.push_back(scene.layer[t]);
+      run.coverage.push_back(scene.coverage[t]);
+      run.visibility.push_back(scene.visibility[t]);
+      for (std::size_t i = 0; i < run.samples.size(); ++i) run.samples[i].push_back(scene.samples[i][t]);
+      const double w =
+          std::max(static_cast<double>(scene.visibility[t]), 0.5 / 16.0) * static_cast<double>(scene.coverage[t]);
+      weight += w, mean += w * scene.u(t);
+    }
+    if (run.layer.empty()) continue;
+    mean /= weight;
+    run.columns = 1;
+    run.columnStart = {0, static_cast<std::uint32_t>(run.layer.size())};
+    const Fit fit = fitted(run, options);
+    sum += fittedErrors(*represented(run, options), run)[0] / static_cast<double>(scene.lights.size());
+    for (int c = 0; c < scene.channels; ++c) {
+      const auto b = fit.column(0, c);
+      const auto d = [&](std::size_t j) { return static_cast<double>(b[j]); };
+      const double b6 = d(6) + d(4) * mean, b7 = d(7) + d(5) * mean, b8 = d(8) + d(2) * mean;
+      sum += weight * (options.layerRidge * (d(2) * d(2) + d(4) * d(4) + d(5) * d(5) + b8 * b8) +
+                       options.lightRidge * (d(0) * d(0) + d(1) * d(1) + d(3) * d(3) + b6 * b6 + b7 * b7));
+    }
+  }
+  return sum;
+}
+
+/// Responses that bend with depth, differently above and under some layer.
+Scene bentScene(int columns, std::uint64_t seed) {
+  Scene scene;
+  base::Random random(seed);
+  for (int column = 0; column < columns; ++column) {
+    std::vector<int> layers;
+    for (int i = 0; i < 16; ++i) {
+      if (random.uniform() < 0.7) layers.push_back(i);
+    }
+    if (layers.empty()) layers.push_back(3);
+    const double middle = random.uniform(0.2, 0.8), bend = random.uniform(-3.0, 3.0), other = random.uniform(-3.0, 3.0);
+    addColumn(scene, layers, [&](int, int layer, const glm::dvec3& l) {
+      const double v = layer / 16.0 - middle;
+      return 0.5 + (v > 0.0 ? bend : other) * v * v + 0.2 * l.x * v + random.uniform(-0.02, 0.02);
+    });
+  }
+  return scene;
+}
+
+TEST(Representation, AdaptiveGroupsHaveTheLeastObjective) {
+  const std::array<std::pair<Scene, double>, 2> cases{
+      {{randomScene(40, 16, 15, 2, 58), 0.005}, {bentScene(40, 66), 1e-5}}};
+  for (const auto& [scene, ridge] : cases) {
+    const FitOptions options{.layerRidge = ridge};
+    const auto two = detail::bestGroups(scene.input(), options, 2, {});
+    const auto four = detail::bestGroups(scene.input(), options, 4, {});
+    const auto equal = detail::equalGroups(16, 4);
     int better = 0;
     for (int column = 0; column < scene.columns; ++column) {
-      const auto inner = static_cast<std::size_t>(clusters - 1);
-      const double mine = objective(column, std::span(best).subspan(static_cast<std::size_t>(column) * inner, inner));
-      const double theirs = objective(column, equal);
-      ASSERT_LE(mine, theirs * (1.0 + 1e-5)) << column;
+      const auto at = static_cast<std::size_t>(column);
+      double least = objective(scene, options, column, {});
+      for (std::uint16_t border = 1; border < 16; ++border) {
+        least = std::min(least, objective(scene, options, column, {&border, 1}));
+      }
+      // Coefficients of some units, rounded to float, move residuals of some hundredths by less than 1e-4 of
+      // themselves.
+      ASSERT_LE(objective(scene, options, column, std::span(two).subspan(at, 1)), least * (1.0 + 1e-4)) << column;
+      const double mine = objective(scene, options, column, std::span(four).subspan(at * 3, 3));
+      const double theirs = objective(scene, options, column, equal);
+      ASSERT_LE(mine, theirs * (1.0 + 1e-4)) << column;
       better += mine < theirs * 0.999 ? 1 : 0;
     }
-    EXPECT_GT(better, 50);
+    EXPECT_GT(better, 20);
   }
 }
 

@@ -2,11 +2,15 @@
 
 #include "app/stall_report.h"
 #include "project/nearest.h"
+#include "report/section_fit.h"
 #include "report/section_grassland.h"
+#include "report/section_quantisation.h"
+#include "report/section_relight.h"
 #include "report/section_tiles.h"
 #include "report/speed.h"
 
 #include <algorithm>
+#include <memory>
 
 namespace sward::editor {
 namespace {
@@ -67,8 +71,17 @@ std::vector<SectionEntry> reportSections(const Program& program, const std::stri
   const auto speed = [&program, projectFile](const SectionInput& input, const JobContext& job) {
     return speedSection(program, projectFile, input, job);
   };
+  // Three sections look at one sampling; whichever runs first makes it.
+  const auto source = std::make_shared<report::LightSampleSource>();
+  const auto sharing = [source](auto section) {
+    return [source, section](const SectionInput& input, const JobContext& job) { return section(input, *source, job); };
+  };
   return {
       {"speed", "every step's rate, time and bytes against its limit or yardstick", speed, 60.0},
+      {"lpt_fit", "how well each representation predicts light that it was not fitted to",
+       sharing(report::lptFitSection), 60.0},
+      {"lpt_relight", "how fast each is relit, with its error beside", sharing(report::lptRelightSection), 15.0},
+      {"quantisation", "what bits and clamped ranges add to the error", sharing(report::quantisationSection), 20.0},
       {"tiles", "what seams cost, and how much maps and pictures repeat", report::tilesSection, 15.0},
       {"grassland", "drawing methods against the ray-traced meadow, and what each step costs", report::grasslandSection,
        80.0},

@@ -1,5 +1,6 @@
 #include "image/bytes.h"
 
+#include "base/check.h"
 #include "image/colour.h"
 
 namespace sward::image {
@@ -10,6 +11,24 @@ std::uint8_t exactByte(float linear) {
 }
 
 }  // namespace
+
+ByteImage toBytes(const Image& display) {
+  SWARD_CHECK_EQ(display.channels, 3);
+  ByteImage out{display.width, display.height, {}};
+  out.rgba.reserve(display.pixels.size() / 3 * 4);
+  for (std::size_t i = 0; i < display.pixels.size(); i += 3) {
+    for (std::size_t c = 0; c < 3; ++c) out.rgba.push_back(toByte(display.pixels[i + c]));
+    out.rgba.push_back(255);
+  }
+  return out;
+}
+
+Image fromBytes(const ByteImage& bytes) {
+  Image out(bytes.width, bytes.height, 3);
+  for (std::size_t i = 0; i < out.pixels.size(); ++i)
+    out.pixels[i] = static_cast<float>(bytes.rgba[i / 3 * 4 + i % 3]) / 255.0f;
+  return out;
+}
 
 SrgbBytes::SrgbBytes() {
   constexpr int kShift = 23 - kMantissaBits;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "image/image.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -26,6 +28,10 @@ inline std::uint8_t toByte(float encoded) {
   if (!(encoded > 0.0f)) return 0;
   return static_cast<std::uint8_t>(std::lround(std::min(encoded, 1.0f) * 255.0f));
 }
+
+/// An RGB picture of display values in 8 bits, alpha 255; and the display values of one, RGB.
+ByteImage toBytes(const Image& display);
+Image fromBytes(const ByteImage& bytes);
 
 /// toByte(srgbFromLinear(linear)) for any float, by a table: a fiftieth of the time of the power.
 class SrgbBytes {

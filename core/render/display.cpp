@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace sward::render {
@@ -154,6 +155,24 @@ image::Image toDisplay(const image::Image& linear, ViewTransform transform) {
     }
   }
   return out;
+}
+
+double displayNoise(const image::Image& mean, const image::Image& variance, ViewTransform transform) {
+  if (mean.empty()) return 0.0;
+  image::Image above = mean, below = mean;
+  for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
+    const float deviation = std::sqrt(std::max(variance.pixels[i], 0.0f));
+    above.pixels[i] += deviation;
+    below.pixels[i] = std::max(below.pixels[i] - deviation, 0.0f);
+  }
+  above = toDisplay(above, transform);
+  below = toDisplay(below, transform);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < above.pixels.size(); ++i) {
+    const double half = 0.5 * static_cast<double>(above.pixels[i] - below.pixels[i]);
+    sum += half * half;
+  }
+  return std::sqrt(sum / static_cast<double>(above.pixels.size()));
 }
 
 void toDisplayBytes(std::span<const float> rgba, float gain, const DisplayLook& look, Columns columns,

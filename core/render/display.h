@@ -20,6 +20,10 @@ struct Columns {
 /// kept.
 image::Image toDisplay(const image::Image& linear, ViewTransform transform);
 
+/// RMSE of display values that noise makes in a linear picture whose values have these variances: half the difference
+/// that one standard deviation to either side makes, a value at a time. 0 of an empty picture.
+double displayNoise(const image::Image& mean, const image::Image& variance, ViewTransform transform);
+
 /// How a target's values become colours.
 struct DisplayLook {
   ViewTransform transform = ViewTransform::Filmic;  ///< of the plain picture

@@ -32,25 +32,6 @@ struct Bench {
   trace::GroundPlan plan;
 };
 
-/// RMSE of display values that a noise of this variance makes: half the difference that one standard deviation to
-/// either side makes, a value at a time.
-double displayNoise(const image::Image& mean, const image::Image& variance, render::ViewTransform transform) {
-  image::Image above = mean, below = mean;
-  for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
-    const float deviation = std::sqrt(std::max(variance.pixels[i], 0.0f));
-    above.pixels[i] += deviation;
-    below.pixels[i] = std::max(below.pixels[i] - deviation, 0.0f);
-  }
-  above = render::toDisplay(above, transform);
-  below = render::toDisplay(below, transform);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < above.pixels.size(); ++i) {
-    const double half = 0.5 * static_cast<double>(above.pixels[i] - below.pixels[i]);
-    sum += half * half;
-  }
-  return above.pixels.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(above.pixels.size()));
-}
-
 /// Of what a reference of the view shows: the tiles and where they lie, which soil, and from where.
 base::Hash128 truthKey(const trace::GroundPlan& plan, const scene::View& view) {
   base::Hasher hasher;
@@ -77,7 +58,7 @@ Result<ReferenceStore::Truth> traceView(const Bench& bench, const render::Frame&
   const image::Image truth = reference->mean();
   const render::ViewTransform transform = frame.options.viewTransform;
   return ReferenceStore::Truth{render::toDisplay(truth, transform),
-                               displayNoise(truth, reference->variance(), transform)};
+                               render::displayNoise(truth, reference->variance(), transform)};
 }
 
 Result<ViewError> compareView(const Bench& bench, const scene::View& view, ReferenceStore& references,

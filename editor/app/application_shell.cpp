@@ -23,6 +23,11 @@ constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowF
                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
 constexpr ImGuiWindowFlags kScrolling = (kFixed & ~ImGuiWindowFlags_NoScrollbar);
 
+constexpr const char* kReferenceHelp =
+    "The plants themselves, ray-traced where the tiles put them, under the same sun and sky:\n"
+    "what the baked ground stands for. It grows while the view is at rest.\n"
+    "Macro variation is off on both sides. The noise is the reference's own, and part of the RMSE.";
+
 struct Region {
   float x = 0.0f, y = 0.0f, width = 0.0f, height = 0.0f;
 };
@@ -152,12 +157,13 @@ void Application::drawToolbar() {
 void Application::drawCompareControls() {
   CompareState& compare = m_ui.compare;
   if (!compare.on) return;
-  constexpr std::array<std::pair<CompareState::Other, const char*>, 5> kOthers{{
+  constexpr std::array<std::pair<CompareState::Other, const char*>, 6> kOthers{{
       {CompareState::Other::March, "March"},
       {CompareState::Other::Blended, "Blended, normalised"},
       {CompareState::Other::BlendedPaper, "Blended, paper's weights"},
       {CompareState::Other::Ptm, "PTM fit"},
       {CompareState::Other::LptPaper, "LPT without ridge"},
+      {CompareState::Other::Reference, "Reference (ray-traced)"},
   }};
   ImGui::SetCursorPosY(px(7.0f));
   ImGui::TextDisabled("against");
@@ -173,6 +179,8 @@ void Application::drawCompareControls() {
     ImGui::EndCombo();
   }
   logItem("compare.other");
+  if (compare.other == CompareState::Other::Reference && ImGui::IsItemHovered())
+    ImGui::SetTooltip("%s", kReferenceHelp);
   ImGui::SameLine();
   bool difference = compare.show == Comparison::Show::Difference;
   if (ImGui::Checkbox("Difference", &difference))
@@ -290,6 +298,7 @@ void Application::drawTab(PanelContext& context, BottomTab tab) {
 void Application::writeItemLog(int width, int height) {
   if (m_options.itemLog.empty()) return;
   const LiveState& live = m_live->state();
+  const int samples = live.reference && live.reference->picture ? live.reference->picture->samples : 0;
   nlohmann::ordered_json state{{"position", m_document->position()},
                                {"undo", m_document->undoName()},
                                {"modified", m_document->modified()},
@@ -297,6 +306,7 @@ void Application::writeItemLog(int width, int height) {
                                {"autosaved", m_autosavedRevision == m_document->revision()},
                                {"baking", live.bake.running},
                                {"settled", m_live->settled()},
+                               {"referenceSamples", samples},
                                {"viewError", live.viewError ? live.viewError->text() : ""},
                                {"bakeError", live.bake.error ? live.bake.error->text() : ""},
                                {"windowWidth", width},

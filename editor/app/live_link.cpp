@@ -25,6 +25,7 @@ render::GroundMethod methodOf(CompareState::Other other, render::GroundMethod ow
       return render::GroundMethod::BlendedPaper;
     case CompareState::Other::Ptm:
     case CompareState::Other::LptPaper:
+    case CompareState::Other::Reference:
       return own;
   }
   return own;
@@ -59,6 +60,7 @@ bool LiveLink::poll() {
   takeGrounds();
   const bool picture = takePicture();
   const bool thumbnails = takeThumbnails();
+  const bool reference = pollReference();
   const BakeStatus before = m_state.bake;
   m_state.bake = m_bakes.status();
   m_state.viewError = m_views.error();
@@ -67,13 +69,14 @@ bool LiveLink::poll() {
   const bool status = before.running != m_state.bake.running || before.quality != m_state.bake.quality ||
                       percent(before) != percent(m_state.bake) ||
                       before.error.has_value() != m_state.bake.error.has_value();
-  return picture || thumbnails || status || m_groundChanged;
+  return picture || thumbnails || reference || status || m_groundChanged;
 }
 
 void LiveLink::takeGrounds() {
   m_groundChanged = false;
   while (auto baked = m_bakes.tryPop()) {
     m_state.ground = std::move(baked->ground);
+    m_groundProject = std::move(baked->project);
     m_inspection = baked->inspection;
     m_state.inspection = std::move(baked->inspection);
     m_state.quality = baked->quality;
@@ -97,6 +100,7 @@ bool LiveLink::takePicture() {
   m_state.samples = picture->samples;
   m_state.pictureFinal = picture->final && picture->id == m_requestId;
   m_state.drawMs = picture->drawMs;
+  if (m_state.reference) m_state.reference->rmse = picture->rmse;
   ++m_pictures;
   m_pictureTimes.push_back(now());
   while (m_pictureTimes.back() - m_pictureTimes.front() > kRateSeconds) m_pictureTimes.pop_front();
@@ -134,12 +138,52 @@ void LiveLink::update(const Document& document, const UiState& ui, int width, in
   if (!m_state.ground || width < 1 || height < 1) return;
   if (m_inspecting && !m_inspection) return;
   const bool moved = ui.inputActive || seconds - ui.lastMotion < kSettleSeconds;
-  Wanted wanted{document.snapshot(), m_state.ground, ui.camera,     width,       height, ui.mode,
-                ui.compare,          moved,          m_otherGround, m_inspection};
+  Wanted wanted{document.snapshot(), m_state.ground, ui.camera,     width,        height, ui.mode,
+                ui.compare,          moved,          m_otherGround, m_inspection, false,  {}};
+  updateReference(ui, wanted);
   if (m_wanted == wanted) return;
   m_settleAt = moved ? std::optional(seconds + kSettleSeconds) : std::nullopt;
+  // More of the reference leaves the project's own picture as it is.
+  if (m_wanted) m_wanted->reference = wanted.reference;
+  if (m_wanted != wanted) m_state.pictureFinal = false;
   requestPicture(wanted);
   m_wanted = std::move(wanted);
+}
+
+bool LiveLink::pollReference() {
+  if (!m_reference || !m_state.reference) return false;
+  ReferenceState& state = *m_state.reference;
+  const ReferenceService::Status status = m_reference->status();
+  auto picture = m_reference->picture();
+  const bool changed = picture != state.picture || status.running != state.running ||
+                       status.error.has_value() != state.error.has_value();
+  state.picture = std::move(picture);
+  if (!state.picture) state.rmse.reset();
+  state.running = status.running;
+  state.error = status.error;
+  return changed;
+}
+
+void LiveLink::updateReference(const UiState& ui, Wanted& wanted) {
+  const bool compared = ui.compare.on && ui.compare.other == CompareState::Other::Reference;
+  if (!compared || !ui.mode.plain()) {
+    if (m_reference) m_reference->close();
+    m_state.reference.reset();
+    return;
+  }
+  if (!m_reference)
+    m_reference = std::make_unique<ReferenceService>(
+        ReferenceService::Options{.threads = m_bakeOptions.threads, .onChanged = m_bakeOptions.onChanged});
+  if (!m_state.reference) m_state.reference.emplace();
+  const bool full = m_state.quality == Quality::Full;
+  // A coarse ground is on its way to another one, and its bake needs the processor.
+  const bool held = m_bakes.status().running || !full;
+  m_reference->request(
+      {wanted.project, wanted.ground, m_groundProject, wanted.view, wanted.width, wanted.height, wanted.moving, held});
+  pollReference();
+  m_state.reference->waitsForBake = held && !m_state.reference->picture;
+  wanted.given = true;
+  wanted.reference = m_state.reference->picture;
 }
 
 void LiveLink::updateOther(const Document& document, const CompareState& compare) {
@@ -184,16 +228,18 @@ void LiveLink::requestPicture(const Wanted& wanted) {
   request.inspection = wanted.inspection;
   request.moving = wanted.moving;
   request.id = ++m_requestId;
-  if (wanted.compare.on) {
+  const bool nothingBeside = wanted.compare.other == CompareState::Other::Reference && !wanted.given;
+  if (wanted.compare.on && !nothingBeside) {
     Comparison comparison;
     comparison.show = wanted.compare.show;
     comparison.splitAt = wanted.compare.splitAt;
     comparison.method = methodOf(wanted.compare.other, wanted.project->render.method);
     comparison.ground = wanted.other;
     comparison.differenceGain = wanted.compare.gain;
+    comparison.given = wanted.given;
+    if (wanted.reference) comparison.other = {wanted.reference, &wanted.reference->bytes};
     request.comparison = std::move(comparison);
   }
-  m_state.pictureFinal = false;
   m_views.request(std::move(request));
 }
 

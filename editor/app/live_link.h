@@ -4,6 +4,7 @@
 #include "document/document.h"
 #include "document/preferences.h"
 #include "live/bake_service.h"
+#include "live/reference_service.h"
 #include "live/thumbnail_service.h"
 #include "live/view_service.h"
 #include "panels/panel_context.h"
@@ -59,6 +60,8 @@ class LiveLink {
     bool moving = false;
     std::shared_ptr<const bake::GroundBake> other;  ///< of the compared fit
     std::shared_ptr<const bake::Inspection> inspection;
+    bool given = false;                                 ///< compared with the reference
+    std::shared_ptr<const ReferencePicture> reference;  ///< as far as it is traced
     bool operator==(const Wanted&) const = default;
   };
   void takeGrounds();
@@ -67,6 +70,9 @@ class LiveLink {
   void requestPicture(const Wanted& wanted);
   void requestThumbnails(const Document& document);
   void updateOther(const Document& document, const CompareState& compare);
+  bool pollReference();
+  /// Asks for the reference of what is wanted, or lets go of it.
+  void updateReference(const UiState& ui, Wanted& wanted);
 
   const UiGl& m_gl;
   BakeService::Options m_bakeOptions;
@@ -76,6 +82,7 @@ class LiveLink {
   LiveState m_state;
   std::map<std::uint64_t, PanelPicture> m_thumbnailTextures;  ///< by the plant's index
   std::uint64_t m_revision = 0;
+  Snapshot m_groundProject;  ///< that m_state.ground was baked from
   std::shared_ptr<const bake::Inspection> m_inspection;
   bool m_inspecting = false;
   std::optional<Wanted> m_wanted;
@@ -89,6 +96,7 @@ class LiveLink {
   std::shared_ptr<const bake::GroundBake> m_otherGround;
   std::uint64_t m_otherRevision = 0;
   CompareState::Other m_otherOther{};
+  std::unique_ptr<ReferenceService> m_reference;  ///< once it is asked for
 };
 
 }  // namespace sward::editor

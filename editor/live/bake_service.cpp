@@ -231,6 +231,7 @@ Result<bool> BakeService::Impl::bakeOne(bake::Baker& baker, const Request& reque
   if (inspects()) {
     SWARD_ASSIGN(baked.inspection, baker.inspection(asked, job));
   }
+  baked.project = request.project;
   baked.quality = quality;
   keepLayout(request, baked);
   const bool traced = baked.report.raysNearest + baked.report.raysOcclusion > 0;

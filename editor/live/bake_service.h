@@ -22,6 +22,7 @@ struct BakedGround {
   std::uint64_t revision = 0;  ///< of the newest request that this ground answers
   Quality quality = Quality::Coarse;
   std::shared_ptr<const bake::GroundBake> ground;
+  std::shared_ptr<const project::Project> project;     ///< that `ground` was baked from, at `quality`
   std::shared_ptr<const bake::Inspection> inspection;  ///< of `ground`, while inspect(true) holds; else null
   bake::BakeReport report;
   double secondsSinceRequest = 0.0;  ///< since the request that began the bake

@@ -1,6 +1,7 @@
 #include "live/view_painter.h"
 
 #include "base/check.h"
+#include "image/metrics.h"
 #include "render/frame_plan.h"
 
 #include <algorithm>
@@ -14,6 +15,13 @@ Result<void> checkRequest(const ViewRequest& request) {
   if (!request.project) return Error::failed("there is no project", "viewport");
   if (!request.ground) return Error::failed("there is no ground yet", "viewport");
   return {};
+}
+
+/// Whether the picture begun for `a` is the one that `b` needs, but for what is put beside it.
+bool sameOwnPicture(const ViewRequest& a, const ViewRequest& b) {
+  const auto given = [](const ViewRequest& r) { return r.comparison && r.comparison->given; };
+  return given(a) && given(b) && a.project == b.project && a.ground == b.ground && a.inspection == b.inspection &&
+         a.view == b.view && a.width == b.width && a.height == b.height && a.mode == b.mode && a.moving == b.moving;
 }
 
 /// What the project's own picture of a request is; a moving one has half the size and one sample.
@@ -54,6 +62,42 @@ image::ByteImage differenceOf(const image::ByteImage& own, const image::ByteImag
     out.rgba[i] = i % 4 == 3 ? std::uint8_t{255} : shown[static_cast<std::size_t>(difference + 255)];
   }
   return out;
+}
+
+image::ByteImage inSize(const image::ByteImage& picture, int width, int height) {
+  if (picture.width == width && picture.height == height) return picture;
+  image::ByteImage out{width, height, {}};
+  out.rgba.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const std::uint8_t* pixel = picture.at(x * picture.width / width, y * picture.height / height);
+      out.rgba.insert(out.rgba.end(), pixel, pixel + 4);
+    }
+  }
+  return out;
+}
+
+image::ByteImage composed(const image::ByteImage& own, const image::ByteImage& other, const Comparison& comparison) {
+  if (comparison.show != Comparison::Show::Split) return differenceOf(own, other, comparison);
+  SWARD_CHECK_EQ(own.rgba.size(), other.rgba.size());
+  image::ByteImage out = own;
+  const auto row = static_cast<std::ptrdiff_t>(own.width) * 4;
+  const auto split = static_cast<std::ptrdiff_t>(splitColumn(comparison, own.width)) * 4;
+  for (std::ptrdiff_t y = 0; y < own.height; ++y)
+    std::copy(other.rgba.begin() + y * row + split, other.rgba.begin() + (y + 1) * row,
+              out.rgba.begin() + y * row + split);
+  return out;
+}
+
+image::ByteImage darkened(const image::ByteImage& own, const Comparison& comparison) {
+  constexpr int kParts = 3;  // dark enough to be no picture, light enough to find one's way
+  image::ByteImage dark = own;
+  for (std::size_t i = 0; i < dark.rgba.size(); ++i)
+    if (i % 4 != 3) dark.rgba[i] = static_cast<std::uint8_t>(dark.rgba[i] / kParts);
+  Comparison beside = comparison;
+  beside.show = Comparison::Show::Split;
+  if (comparison.show != Comparison::Show::Split) beside.splitAt = 0.0;
+  return composed(own, dark, beside);
 }
 
 ViewPainter::~ViewPainter() {
@@ -102,7 +146,9 @@ Result<void> ViewPainter::prepare(Bench& bench, const std::shared_ptr<const bake
 
 Result<void> ViewPainter::beginSides(const ViewRequest& request, const render::Frame& frame) {
   render::Frame own = frame, other = frame;
-  if (m_comparison) {
+  if (m_comparison && m_comparison->given) {
+    own.options.macroVariation = 0.0;  // a matter of taste, no error
+  } else if (m_comparison) {
     other.options.method = m_comparison->method;
     if (m_comparison->show == Comparison::Show::Split) {
       const int split = splitColumn(*m_comparison, frame.width);
@@ -113,7 +159,7 @@ Result<void> ViewPainter::beginSides(const ViewRequest& request, const render::F
   SWARD_TRY(prepare(m_benches[0], request.ground, request.inspection));
   m_sides[0].renderer = m_benches[0].renderer.get();
   SWARD_TRY(m_sides[0].renderer->begin(m_sides[0].drawing, own));
-  if (!m_comparison) {
+  if (!m_comparison || m_comparison->given) {
     // A second ground is large, and comparing is done for a while at a time.
     m_sides[1] = {};
     m_benches[1] = {};
@@ -128,10 +174,15 @@ Result<void> ViewPainter::beginSides(const ViewRequest& request, const render::F
 Result<void> ViewPainter::begin(const ViewRequest& request) {
   SWARD_TRY(open());
   SWARD_TRY(checkRequest(request));
+  m_comparison = request.comparison;
+  m_rmse.reset();
+  if (m_request && sameOwnPicture(*m_request, request)) return {};
+  m_request.reset();
   SWARD_TRY(light(*request.project));
   SWARD_ASSIGN(const render::Frame frame, frameOf(request, *m_daylight));
-  m_comparison = request.comparison;
-  return beginSides(request, frame);
+  SWARD_TRY(beginSides(request, frame));
+  m_request = request;
+  return {};
 }
 
 Result<void> ViewPainter::addSample() {
@@ -147,12 +198,25 @@ Result<image::ByteImage> ViewPainter::read() {
     SWARD_TRY(own.renderer->readBytes(own.drawing, own.bytes));
     return std::move(own.bytes);
   }
+  if (m_comparison->given) return readGiven();
   const bool split = m_comparison->show == Comparison::Show::Split;
   SWARD_TRY(own.renderer->readBytes(own.drawing, own.bytes));
   // The two halves of a split go into one picture.
   SWARD_TRY(other.renderer->readBytes(other.drawing, split ? own.bytes : other.bytes));
   if (split) return std::move(own.bytes);
   return differenceOf(own.bytes, other.bytes, *m_comparison);
+}
+
+Result<image::ByteImage> ViewPainter::readGiven() {
+  image::ByteImage& own = m_sides[0].bytes;
+  SWARD_TRY(m_sides[0].renderer->readBytes(m_sides[0].drawing, own));
+  const std::shared_ptr<const image::ByteImage>& given = m_comparison->other;
+  if (!given) return darkened(own, *m_comparison);
+  if (complete() && !m_request->moving && given->width == own.width && given->height == own.height) {
+    SWARD_ASSIGN(const image::ValueErrors errors, image::valueErrors(image::fromBytes(*given), image::fromBytes(own)));
+    m_rmse = errors.rmse;
+  }
+  return composed(own, inSize(*given, own.width, own.height), *m_comparison);
 }
 
 }  // namespace sward::editor

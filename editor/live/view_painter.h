@@ -20,7 +20,8 @@ class ViewPainter {
   explicit ViewPainter(gpu::Device device) : m_device(device) {}
   ~ViewPainter();
 
-  /// Starts a picture, and a context when there is none yet. Errors: no context, a request that cannot be drawn.
+  /// Starts a picture, or goes on with the last one where only its comparison with a given picture changed; and a
+  /// context when there is none yet. Errors: no context, a request that cannot be drawn.
   Result<void> begin(const ViewRequest& request);
   /// One more sample of everything the picture shows, drawn to its end.
   Result<void> addSample();
@@ -28,6 +29,8 @@ class ViewPainter {
   bool complete() const { return m_sides[0].drawing.complete(); }
   /// The picture so far.
   Result<image::ByteImage> read();
+  /// ViewPicture::rmse of what was read last.
+  std::optional<double> rmse() const { return m_rmse; }
   std::optional<gpu::DeviceInfo> device() const;
 
  private:
@@ -50,12 +53,15 @@ class ViewPainter {
   Result<void> prepare(Bench& bench, const std::shared_ptr<const bake::GroundBake>& ground,
                        const std::shared_ptr<const bake::Inspection>& inspection);
   Result<void> beginSides(const ViewRequest& request, const render::Frame& frame);
+  Result<image::ByteImage> readGiven();
 
   gpu::Device m_device;
   std::unique_ptr<gpu::Context> m_context;
   std::array<Bench, 2> m_benches;  ///< the second only for a comparison with another ground
   std::array<Side, 2> m_sides;
+  std::optional<ViewRequest> m_request;  ///< that m_sides were begun for
   std::optional<Comparison> m_comparison;
+  std::optional<double> m_rmse;
   std::optional<scene::Daylight> m_daylight;
   scene::SunOptions m_sun;  ///< what m_daylight was made of
   scene::SkyOptions m_sky;
@@ -63,6 +69,15 @@ class ViewPainter {
 
 /// Column at which a split picture changes sides, 0 to width.
 int splitColumn(const Comparison& comparison, int width);
+
+/// A picture in another size, of its nearest pixels.
+image::ByteImage inSize(const image::ByteImage& picture, int width, int height);
+
+/// The project's own picture beside or against the other, which is of the same size.
+image::ByteImage composed(const image::ByteImage& own, const image::ByteImage& other, const Comparison& comparison);
+
+/// The project's own picture, dark where the comparison's other one will be.
+image::ByteImage darkened(const image::ByteImage& own, const Comparison& comparison);
 
 /// The difference of two pictures of one size as a comparison shows it, on their 8-bit display values; alpha 255.
 image::ByteImage differenceOf(const image::ByteImage& own, const image::ByteImage& other, const Comparison& comparison);

@@ -38,6 +38,7 @@ struct ViewService::Impl {
   std::optional<ViewPicture> picture;
   std::optional<Error> error;
   std::optional<gpu::DeviceInfo> device;
+  double drawMs = 0.0;  ///< the thread's own: of the last sample
   std::jthread thread;  ///< last: it ends before what it uses
 
   explicit Impl(Options given) : options(std::move(given)) {
@@ -83,14 +84,16 @@ struct ViewService::Impl {
     SWARD_TRY(std::move(begun));
     Clock::time_point published = Clock::now();
     do {
-      const Clock::time_point start = Clock::now();
-      SWARD_TRY(painter.addSample());
-      const double drawMs = millisecondsSince(start);
+      if (!painter.complete()) {
+        const Clock::time_point start = Clock::now();
+        SWARD_TRY(painter.addSample());
+        drawMs = millisecondsSince(start);
+      }
       const int samples = painter.samples();
       if (isPowerOfTwo(samples) || painter.complete() || millisecondsSince(published) >= kPublishMs) {
         SWARD_ASSIGN(image::ByteImage bytes, painter.read());
         publish({request.id, bytes.width, bytes.height, std::move(bytes.rgba), samples,
-                 painter.complete() && !request.moving, drawMs});
+                 painter.complete() && !request.moving, drawMs, painter.rmse()});
         published = Clock::now();
       }
     } while (!painter.complete() && !superseded(stop));

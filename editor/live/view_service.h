@@ -4,6 +4,7 @@
 #include "bake/inspection.h"
 #include "base/result.h"
 #include "gpu/context.h"
+#include "image/bytes.h"
 #include "project/project.h"
 #include "render/view_mode.h"
 #include "scene/options.h"
@@ -31,6 +32,13 @@ struct Comparison {
   std::shared_ptr<const bake::GroundBake> ground;
   std::shared_ptr<const bake::Inspection> inspection;  ///< of that ground, where the view mode needs one
   double differenceGain = 4.0;
+  /// The other picture is not drawn but given, whatever method and ground say; macro variation, which it does not have,
+  /// is left out of the project's own. Pictures that differ in no more than the comparison go on with the samples they
+  /// have.
+  bool given = false;
+  /// As large as the request or as a moving one; shown in the size of the project's own. Null: it is not there yet, and
+  /// the project's own darkens in its place.
+  std::shared_ptr<const image::ByteImage> other;
 };
 
 /// A picture that the viewport wants.
@@ -55,6 +63,9 @@ struct ViewPicture {
   int samples = 0;      ///< drawn so far
   bool final = false;   ///< all samples of the project's output: shaded and alone, it is what `sward render` writes
   double drawMs = 0.0;  ///< of the last sample
+  /// Of the display values of both sides of a comparison with a given picture, once this one is final and the other as
+  /// large.
+  std::optional<double> rmse;
 };
 
 /// Draws the viewport on a thread and a context of its own, so that no picture ever holds up the UI. A newer request

@@ -2,6 +2,7 @@
 
 #include "document/document.h"
 #include "live/bake_service.h"
+#include "live/reference_service.h"
 #include "panels/ui_state.h"
 
 #include <functional>
@@ -35,6 +36,15 @@ struct PanelPicture {
   int width = 0, height = 0;
 };
 
+/// The reference that the viewport compares with.
+struct ReferenceState {
+  std::shared_ptr<const ReferencePicture> picture;  ///< null: not there yet
+  bool running = false;                             ///< more samples are on their way
+  bool waitsForBake = false;                        ///< it is traced once the ground is baked in full
+  std::optional<Error> error;
+  std::optional<double> rmse;  ///< of the display values of both sides, when the view is at rest
+};
+
 /// What the services have to show this frame.
 struct LiveState {
   BakeStatus bake;
@@ -47,6 +57,7 @@ struct LiveState {
   int samples = 0;
   bool pictureFinal = false;
   double drawMs = 0.0, framesPerSecond = 0.0;
+  std::optional<ReferenceState> reference;  ///< while it is compared with and the mode is the plain picture
   std::optional<Error> viewError;
   std::optional<gpu::DeviceInfo> device;
   const std::map<std::uint64_t, PanelPicture>* thumbnails = nullptr;  ///< by the plant's index

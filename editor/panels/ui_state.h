@@ -21,8 +21,8 @@ struct CompareState {
   bool on = false;
   Comparison::Show show = Comparison::Show::Split;
   double splitAt = 0.5;
-  /// What the right half shows: another way to draw the same bake, or another fit of the light response.
-  enum class Other { March, Blended, BlendedPaper, Ptm, LptPaper } other = Other::Blended;
+  /// What the right half shows: another way to draw the same bake, another fit of the light response, or the truth.
+  enum class Other { March, Blended, BlendedPaper, Ptm, LptPaper, Reference } other = Other::Blended;
   double gain = 4.0;
   bool operator==(const CompareState&) const = default;
 };

@@ -22,6 +22,8 @@ constexpr float kHeaderHeight = 34.0f;  ///< design pixels
 constexpr double kSunDegreesPerHeight = 90.0;
 constexpr double kFlySpeed = 1.2;  ///< metres a second at eye height 1 m; grows with the eye's height
 constexpr float kSplitGrab = 6.0f;
+constexpr ImU32 kBusy = IM_COL32(230, 180, 70, 255), kFailed = IM_COL32(230, 90, 70, 255),
+                kDone = IM_COL32(120, 190, 90, 255);
 
 ImVec2 operator+(const ImVec2& a, const ImVec2& b) {
   return {a.x + b.x, a.y + b.y};
@@ -213,47 +215,78 @@ void ViewportPanel::navigate(PanelContext& context, bool hovered) {
   moved(context);
 }
 
-void ViewportPanel::overlays(PanelContext& context) {
+void ViewportPanel::pill(const Pill& shown, float scale) const {
+  const ImVec2 pad{10.0f * scale, 5.0f * scale};
+  const float dotWidth = 14.0f * scale, margin = 12.0f * scale;
+  const float room = std::max(static_cast<float>(m_width) - 2.0f * (margin + pad.x) - dotWidth, 40.0f * scale);
+  const ImVec2 text = ImGui::CalcTextSize(shown.text.c_str(), nullptr, false, room);
+  const ImVec2 size{text.x + 2.0f * pad.x + dotWidth, text.y + 2.0f * pad.y};
+  const ImVec2 at{shown.right ? m_left + static_cast<float>(m_width) - margin - size.x : m_left + margin,
+                  shown.bottom ? m_top + static_cast<float>(m_height) - margin - size.y : m_top + margin};
   ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddRectFilled(at, at + size, IM_COL32(20, 22, 20, 190), 10.0f * scale);
+  draw->AddCircleFilled(at + ImVec2(pad.x + 3.0f * scale, pad.y + 0.5f * ImGui::GetTextLineHeight()), 4.0f * scale,
+                        shown.dot);
+  logRect("viewport.", shown.right ? "caption" : "message", at, at + size);
+  draw->AddText(ImGui::GetFont(), ImGui::GetFontSize(), at + ImVec2(pad.x + dotWidth, pad.y),
+                IM_COL32(235, 238, 232, 255), shown.text.c_str(), nullptr, room);
+}
+
+void ViewportPanel::overlays(PanelContext& context) {
   const float scale = context.scale;
-  const ImVec2 corner{m_left, m_top};
-  const auto pill = [&](const ImVec2& at, const std::string& text, ImU32 dot) {
-    const ImVec2 pad{10.0f * scale, 5.0f * scale};
-    const float dotWidth = 14.0f * scale;
-    const float room = std::max(static_cast<float>(m_width) - 24.0f * scale - 2.0f * pad.x - dotWidth, 40.0f * scale);
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, room);
-    const ImVec2 end = at + ImVec2(size.x + 2.0f * pad.x + dotWidth, size.y + 2.0f * pad.y);
-    draw->AddRectFilled(at, end, IM_COL32(20, 22, 20, 190), 10.0f * scale);
-    draw->AddCircleFilled(at + ImVec2(pad.x + 3.0f * scale, pad.y + 0.5f * ImGui::GetTextLineHeight()), 4.0f * scale,
-                          dot);
-    draw->AddText(ImGui::GetFont(), ImGui::GetFontSize(), at + ImVec2(pad.x + dotWidth, pad.y),
-                  IM_COL32(235, 238, 232, 255), text.c_str(), nullptr, room);
-  };
   const LiveState& live = context.live;
   if (live.viewError) {
-    pill(corner + ImVec2(12.0f * scale, 12.0f * scale), live.viewError->text(), IM_COL32(230, 90, 70, 255));
+    pill({live.viewError->text(), kFailed}, scale);
   } else if (live.bake.error) {
-    pill(corner + ImVec2(12.0f * scale, 12.0f * scale), live.bake.error->text(), IM_COL32(230, 90, 70, 255));
+    pill({live.bake.error->text(), kFailed}, scale);
   } else if (!live.ground) {
-    pill(corner + ImVec2(12.0f * scale, 12.0f * scale), "Baking the first picture", IM_COL32(230, 180, 70, 255));
+    pill({"Baking the first picture", kBusy}, scale);
   } else if (live.stale) {
     constexpr std::array<const char*, 3> kNames{"coarse", "half", "full"};
     const auto quality = static_cast<std::size_t>(live.bake.quality);
     std::string text = std::string("Updating, ") + kNames[quality];
     if (live.bake.running) text += " " + std::to_string(static_cast<int>(live.bake.fraction * 100.0)) + " %";
-    pill(corner + ImVec2(12.0f * scale, 12.0f * scale), text, IM_COL32(230, 180, 70, 255));
+    pill({text, kBusy}, scale);
   }
   if (live.ground && !context.ui.mode.plain()) {
     const render::Legend legend = render::legendOf(context.ui.mode, *live.ground, live.inspection.get());
-    drawLegend(legend, corner + ImVec2(12.0f * scale, static_cast<float>(m_height) - 12.0f * scale));
+    drawLegend(legend, ImVec2(m_left + 12.0f * scale, m_top + static_cast<float>(m_height) - 12.0f * scale));
   }
+  compareOverlay(context);
+}
+
+void ViewportPanel::compareOverlay(PanelContext& context) const {
   const CompareState& compare = context.ui.compare;
-  if (compare.on && compare.show == Comparison::Show::Split) {
+  if (!compare.on) return;
+  const float scale = context.scale;
+  const bool reference = compare.other == CompareState::Other::Reference;
+  if (compare.show == Comparison::Show::Split && (!reference || context.live.reference)) {
+    ImDrawList* draw = ImGui::GetWindowDrawList();
     const float x = m_left + static_cast<float>(compare.splitAt) * static_cast<float>(m_width);
     const float bottom = m_top + static_cast<float>(m_height);
     draw->AddLine({x, m_top}, {x, bottom}, IM_COL32(255, 255, 255, 200), 1.5f * scale);
     draw->AddCircleFilled({x, 0.5f * (m_top + bottom)}, 7.0f * scale, IM_COL32(255, 255, 255, 230));
   }
+  if (reference) pill(captionOf(context.live.reference), scale);
+}
+
+ViewportPanel::Pill ViewportPanel::captionOf(const std::optional<ReferenceState>& reference) {
+  const auto say = [](std::string text, std::uint32_t dot) { return Pill{std::move(text), dot, true, true}; };
+  if (!reference) return say("The reference is a shaded picture of all layers: choose Shaded, All layers", kBusy);
+  if (reference->error) return say(reference->error->text(), kFailed);
+  if (!reference->picture)
+    return say(reference->waitsForBake ? "reference, once the ground is baked in full" : "reference, first samples",
+               kBusy);
+  const ReferencePicture& picture = *reference->picture;
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), "reference, %s%d samples, noise %.3f", picture.half ? "half size, " : "",
+                picture.samples, picture.noise);
+  std::string caption = text.data();
+  if (reference->rmse) {
+    std::snprintf(text.data(), text.size(), "\nRMSE %.3f", *reference->rmse);
+    caption += text.data();
+  }
+  return say(std::move(caption), reference->running ? kBusy : kDone);
 }
 
 }  // namespace sward::editor

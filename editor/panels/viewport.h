@@ -2,6 +2,10 @@
 
 #include "panels/panel_context.h"
 
+#include <cstdint>
+#include <optional>
+#include <string>
+
 namespace sward::editor {
 
 /// The picture in the middle, and what the mouse and keys do to the camera and the sun over it. Draws itself into the
@@ -24,7 +28,16 @@ class ViewportPanel {
   void navigate(PanelContext& context, bool hovered);
   void dragSun(PanelContext& context);
   bool dragSplit(PanelContext& context);
+  /// A line of text over a corner of the picture.
+  struct Pill {
+    std::string text;
+    std::uint32_t dot = 0;  ///< its colour, as ImGui packs them
+    bool right = false, bottom = false;
+  };
+  void pill(const Pill& shown, float scale) const;
+  static Pill captionOf(const std::optional<ReferenceState>& reference);
   void overlays(PanelContext& context);
+  void compareOverlay(PanelContext& context) const;
   void moved(PanelContext& context);
 
   int m_width = 0, m_height = 0;

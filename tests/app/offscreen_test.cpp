@@ -5,7 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cmath>
 #include <cstdlib>
+#include <functional>
+#include <thread>
 
 namespace sward::editor {
 namespace {
@@ -104,6 +108,50 @@ TEST_F(OffscreenEditorTest, ShowsThePictureOfTheWholeProjectAndThenRests) {
   EXPECT_GT(sum.g, 1.5 * sum.b);
   EXPECT_GT(sum.g, 1.1 * sum.r);
   EXPECT_FALSE(application().nextWake().has_value());
+}
+
+TEST_F(OffscreenEditorTest, TheReferenceGrowsBesideThePictureAndNothingIsEdited) {
+  ASSERT_TRUE(m_editor->settle(120.0));
+  const image::Image alone = m_editor->picture();
+  UiState& ui = application().ui();
+  ui.compare.on = true;
+  ui.compare.other = CompareState::Other::Reference;
+  const auto reference = [&] { return application().live().state().reference; };
+  const auto frameUntil = [&](const std::function<bool()>& done) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+    while (!done() && std::chrono::steady_clock::now() < end) {
+      m_editor->frame();
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return done();
+  };
+  ASSERT_TRUE(frameUntil([&] { return reference() && reference()->rmse.has_value(); }));
+  EXPECT_GE(reference()->picture->samples, 4);
+  EXPECT_GT(reference()->picture->noise, 0.0);
+  EXPECT_GT(*reference()->rmse, 0.0);
+  EXPECT_LT(*reference()->rmse, 0.3) << "two pictures of one lawn";
+  m_editor->frame();
+  const image::Image beside = m_editor->picture();
+  // The meadow lies between x = 255 and 615, its split at 435; below y = 350 there is the caption.
+  const auto change = [&](int x0, int x1) {
+    double sum = 0.0;
+    for (int y = 250; y < 350; ++y) {
+      for (int x = x0; x < x1; ++x) sum += std::abs(alone.at(x, y, 1) - beside.at(x, y, 1));
+    }
+    return sum / (100.0 * (x1 - x0));
+  };
+  EXPECT_GT(change(450, 600), 3.0 * change(270, 425)) << "left, macro variation alone is gone";
+  EXPECT_FALSE(application().document().modified());
+
+  ui.mode.quantity = render::ViewQuantity::Albedo;
+  m_editor->frame();
+  EXPECT_FALSE(reference().has_value()) << "there is a reference of the plain picture alone";
+  ui.mode = {};
+  ASSERT_TRUE(frameUntil([&] { return reference() && reference()->picture; }));
+  ui.compare.on = false;
+  m_editor->frame();
+  EXPECT_FALSE(reference().has_value());
+  EXPECT_TRUE(m_editor->settle(60.0));
 }
 
 TEST_F(OffscreenEditorTest, ViewActionsMoveTheCameraAndViewsAreKept) {

@@ -26,6 +26,21 @@ TEST(Bytes, RoundToNearestAndClamp) {
   EXPECT_EQ(toByte(std::numeric_limits<float>::quiet_NaN()), 0);
 }
 
+TEST(Bytes, PicturesThereAndBack) {
+  Image display(3, 2, 3);
+  for (std::size_t i = 0; i < display.pixels.size(); ++i) display.pixels[i] = static_cast<float>(i * 15) / 255.0f;
+  const ByteImage bytes = toBytes(display);
+  EXPECT_EQ(bytes.width, 3);
+  EXPECT_EQ(bytes.height, 2);
+  ASSERT_EQ(bytes.rgba.size(), 24u);
+  EXPECT_EQ(bytes.at(1, 1)[2], 14 * 15);
+  EXPECT_EQ(bytes.at(1, 1)[3], 255);
+  const Image back = fromBytes(bytes);
+  EXPECT_EQ(back.width, 3);
+  EXPECT_EQ(back.height, 2);
+  EXPECT_EQ(back.pixels, display.pixels);
+}
+
 TEST(Bytes, TheTableIsTheCurveRightUpToEveryStep) {
   const SrgbBytes& table = srgbBytes();
   int steps = 0;

@@ -1,6 +1,7 @@
 #include "view/fixture.h"
 
 #include "image/io.h"
+#include "image/metrics.h"
 #include "render/frame_plan.h"
 
 #include <gtest/gtest.h>
@@ -294,6 +295,86 @@ TEST(ViewService, DifferencesAreAmplifiedDisplayValues) {
     }
     EXPECT_GT(differing, 1000);
   }
+}
+
+/// A picture that is given to be compared with: bands that no meadow has.
+std::shared_ptr<const image::ByteImage> bands(int width, int height) {
+  image::Image out(width, height, 3);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) out.at(x, y, (x + y) % 3) = 1.0f;
+  }
+  return std::make_shared<const image::ByteImage>(image::toBytes(out));
+}
+
+ViewRequest comparingGiven(std::shared_ptr<const image::ByteImage> other) {
+  ViewRequest request = comparing(Comparison::Show::Split, render::GroundMethod::March);
+  request.project = changed(request, [](project::Project& p) { p.render.macroVariation = 0.4; });
+  request.comparison->given = true;
+  request.comparison->other = std::move(other);
+  return request;
+}
+
+/// The project's own picture beside a given one: without macro variation.
+image::ByteImage ownBeside(const ViewRequest& request) {
+  ViewRequest own = request;
+  own.comparison.reset();
+  own.project = changed(own, [](project::Project& p) { p.render.macroVariation = 0.0; });
+  return rendered(own);
+}
+
+TEST(ViewService, AGivenPictureStandsRightOfTheSplitAndTheErrorIsSaid) {
+  Viewer viewer;
+  const auto other = bands(150, 90);
+  ViewRequest request = comparingGiven(other);
+  const image::ByteImage own = ownBeside(request);
+  for (const auto& [at, column] : {std::pair{0.5, 75}, {0.2, 30}}) {
+    request.comparison->splitAt = at;
+    const auto picture = viewer.picture(request);
+    ASSERT_TRUE(picture.has_value()) << viewer.service().error()->text();
+    for (int i = 0; i < 150 * 90 * 4; ++i) {
+      const auto index = static_cast<std::size_t>(i);
+      ASSERT_EQ(picture->rgba[index], (i / 4 % 150 < column ? own : *other).rgba[index]) << i;
+    }
+    const auto errors = image::valueErrors(image::fromBytes(*other), image::fromBytes(own));
+    ASSERT_TRUE(errors.ok());
+    ASSERT_TRUE(picture->rmse.has_value());
+    EXPECT_EQ(*picture->rmse, errors->rmse);
+  }
+  request.comparison->show = Comparison::Show::Difference;
+  const auto difference = viewer.picture(request);
+  ASSERT_TRUE(difference.has_value());
+  EXPECT_EQ(difference->rgba[1], std::min(4 * std::abs(own.rgba[1] - other->rgba[1]), 255));
+}
+
+TEST(ViewService, AnotherGivenPictureKeepsTheSamplesThatAreDrawn) {
+  Viewer viewer;
+  ViewRequest request = comparingGiven(bands(150, 90));
+  ASSERT_TRUE(viewer.picture(request).has_value());
+  const std::size_t before = viewer.seen().size();
+  request.comparison->other = bands(75, 45);  // half the size, as the first of a reference
+  request.comparison->splitAt = 0.0;
+  const auto picture = viewer.picture(request);
+  ASSERT_TRUE(picture.has_value());
+  EXPECT_EQ(viewer.seen().size() - before, 1u) << "complete at once";
+  EXPECT_FALSE(picture->rmse.has_value()) << "it is not as large";
+  const image::ByteImage& half = *request.comparison->other;
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_EQ(picture->rgba[static_cast<std::size_t>((89 * 150 + 149) * 4 + c)], half.at(74, 44)[c]);
+    EXPECT_EQ(picture->rgba[static_cast<std::size_t>((89 * 150 + 148) * 4 + c)], half.at(74, 44)[c]);
+  }
+}
+
+TEST(ViewService, WhereNoPictureIsGivenYetTheOwnDarkens) {
+  Viewer viewer;
+  const ViewRequest request = comparingGiven(nullptr);
+  const auto picture = viewer.picture(request);
+  ASSERT_TRUE(picture.has_value());
+  const image::ByteImage own = ownBeside(request);
+  for (int x : {0, 74, 75, 149}) {
+    const int expected = own.at(x, 60)[1] / (x < 75 ? 1 : 3);
+    EXPECT_EQ(picture->rgba[static_cast<std::size_t>((60 * 150 + x) * 4 + 1)], expected) << x;
+  }
+  EXPECT_FALSE(picture->rmse.has_value());
 }
 
 TEST(ViewService, ErrorsAreSaidAndTheNextPictureIsDrawn) {

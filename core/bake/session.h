@@ -7,6 +7,7 @@
 #include "bake/payload.h"
 #include "bake/stacks.h"
 #include "trace/canopy_light.h"
+#include "trace/voxel_density.h"
 
 #include <chrono>
 #include <map>
@@ -98,6 +99,7 @@ class Session {
   Result<lpt::Fit> makeFit(trace::LayerSet set, const lpt::FitOptions& options, const JobContext& job);
   Result<lpt::Fit> meanOfLights(const LightSamples& samples) const;
   Result<lpt::Fit> sunResponses(trace::LayerSet set, const lpt::FitOptions& options, const JobContext& job);
+  Result<Shared<trace::VoxelDensity>> density();
   Result<Shared<HeldRepresentation>> representation(trace::LayerSet set, const lpt::FitOptions& options);
   Result<Shared<tiles::TileSet>> tileSet();
   Result<Shared<lpt::LayerStack>> stack(trace::LayerSet set);
@@ -115,6 +117,7 @@ class Session {
   bool m_holdTraced;
 
   std::unique_ptr<trace::PatchScene> m_scene;
+  Shared<trace::VoxelDensity> m_density;
   // Of the sampler that passes over all triangles: all layer sets at once, since the passes share their cost.
   std::unique_ptr<trace::TriangleField> m_field;
   std::vector<trace::LayerHits> m_passed;

@@ -52,17 +52,31 @@ Result<lpt::Fit> Session::meanOfLights(const LightSamples& samples) const {
   return lpt::constantFit(input, responses);
 }
 
+/// One medium for all layer sets of a session.
+Result<std::shared_ptr<const trace::VoxelDensity>> Session::density() {
+  if (!m_density) {
+    SWARD_ASSIGN(auto grown, patch());
+    const trace::VoxelOptions voxels = trace::VoxelOptions::of(m_project.sampling);
+    SWARD_ASSIGN(m_density, trace::VoxelDensity::create(std::move(grown), voxels, {m_job.stop, {}, m_job.threads}));
+  }
+  return m_density;
+}
+
 Result<std::shared_ptr<const HeldRepresentation>> Session::representation(LayerSet set,
                                                                           const lpt::FitOptions& options) {
-  return node<HeldRepresentation>(
-      "representation", trace::layerSetName(set), m_keys.of(set).representation, Keep::Memory,
-      [&](const JobContext& job) -> Result<HeldRepresentation> {
-        SWARD_ASSIGN(const LightSamples samples, lightSamples(set, options.basis != lpt::Basis::Marched));
-        lpt::RepresentationInput input{samples.input, samples.hits.get(), nullptr};
-        HeldRepresentation held;
-        SWARD_ASSIGN(held.value, lpt::represent(input, options, true, job));
-        return held;
-      });
+  return node<HeldRepresentation>("representation", trace::layerSetName(set), m_keys.of(set).representation,
+                                  Keep::Memory, [&](const JobContext& job) -> Result<HeldRepresentation> {
+                                    SWARD_ASSIGN(const LightSamples samples,
+                                                 lightSamples(set, options.basis != lpt::Basis::Marched));
+                                    lpt::RepresentationInput input{samples.input, samples.hits.get(), nullptr};
+                                    if (options.basis == lpt::Basis::Marched) {
+                                      SWARD_ASSIGN(const auto medium, density());
+                                      input.density = medium;
+                                    }
+                                    HeldRepresentation held;
+                                    SWARD_ASSIGN(held.value, lpt::represent(input, options, true, job));
+                                    return held;
+                                  });
 }
 
 Result<lpt::Fit> Session::sunResponses(LayerSet set, const lpt::FitOptions& options, const JobContext& job) {

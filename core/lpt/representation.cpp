@@ -1,6 +1,7 @@
 #include "lpt/representation.h"
 
 #include "base/check.h"
+#include "lpt/marched.h"
 #include "lpt/representation_kinds.h"
 
 namespace sward::lpt {
@@ -42,7 +43,7 @@ Result<std::unique_ptr<Representation>> represent(const RepresentationInput& inp
     case Basis::Marched:
       break;
   }
-  return Error::failed("marched transmittance is not available", "fit.basis", "Choose another method");
+  return representMarched(input, options, quantised, job);
 }
 
 }  // namespace sward::lpt

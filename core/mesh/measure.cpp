@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -76,6 +77,30 @@ Seen seenOf(const Model& model, std::uint32_t triangle) {
 }
 
 }  // namespace
+
+std::vector<Side> triangleSides(const Model& model) {
+  constexpr double kLeastVolume = 1e-5;
+  const Parts parts = findParts(model);
+  std::vector<double> volume(model.positions.size(), 0.0), area(model.positions.size(), 0.0);
+  const glm::dvec3 origin = model.positions.empty() ? glm::dvec3(0.0) : glm::dvec3(model.positions.front());
+  for (std::size_t t = 0; t < model.triangles.size(); ++t) {
+    const glm::uvec3& triangle = model.triangles[t];
+    const glm::dvec3 a = glm::dvec3(model.positions[triangle.x]) - origin;
+    const glm::dvec3 b = glm::dvec3(model.positions[triangle.y]) - origin;
+    const glm::dvec3 c = glm::dvec3(model.positions[triangle.z]) - origin;
+    // Signed volumes of the tetrahedra under a closed surface sum to what it encloses, positive where it winds outward.
+    volume[parts.ofTriangle[t]] += glm::dot(a, glm::cross(b, c)) / 6.0;
+    area[parts.ofTriangle[t]] += 0.5 * glm::length(glm::cross(b - a, c - a));
+  }
+  std::vector<Side> sides;
+  sides.reserve(model.triangles.size());
+  for (const std::uint32_t part : parts.ofTriangle) {
+    const double least = kLeastVolume * area[part] * std::sqrt(area[part]);
+    const bool flat = std::abs(volume[part]) <= least;
+    sides.push_back(parts.open[part] ? Side::Open : flat ? Side::Flat : volume[part] > 0.0 ? Side::Out : Side::Into);
+  }
+  return sides;
+}
 
 Measure measure(const Model& model) {
   struct Part {

@@ -68,7 +68,7 @@ struct ChoiceInput {
 /// Measures candidates from the cheapest on until one keeps the bound in every view. For every pair of layers and
 /// resolution the floor is measured first: where that misses the bound no fit can keep it, and all of its fits are
 /// skipped. Errors are those of the drawn ground against the ray-traced reference of the same tiles, under the
-/// project's sun, with the slow variation left out; RMSE and PSNR have the reference's own noise taken off in
+/// project's sun, with slow variation and bent grid left out; RMSE and PSNR have the reference's own noise taken off in
 /// quadrature. The same choice again (same values, views, version) comes from the cache. Errors: no view, a bake that
 /// fails, Error::cancelled().
 Result<Choice> chooseCheapest(const ChoiceInput& input, const JobContext& job);

@@ -185,6 +185,7 @@ Result<std::shared_ptr<const LightSamples>> sampleLights(const SectionInput& inp
                            "Give the patch some plants.");
   }
   SWARD_ASSIGN(samples->truth, responses(*scene, samples->train.hits, samples->heldOut, quiet));
+  SWARD_ASSIGN(samples->density, trace::VoxelDensity::create(samples->patch, trace::VoxelOptions::of(options), quiet));
   SWARD_TRY(measureNoise(*scene, options, *samples, quiet));
   SWARD_TRY(measureBetween(*samples, options, quiet));
   return std::shared_ptr<const LightSamples>(std::move(samples));

@@ -42,18 +42,12 @@ CanopyLight::CanopyLight(const TriangleField& field, int cells, int layers, std:
   });
 }
 
-int CanopyLight::wrapped(int cell) const {
-  if (cell >= 0 && cell < m_cells) return cell;
-  const int m = cell % m_cells;
-  return m < 0 ? m + m_cells : m;
-}
-
 /// Periodic; values belong to the middles of cells, x and y count cells.
 float CanopyLight::bilinear(const float* plane, float x, float y) const {
   const int ix = floorOf(x - 0.5f), iy = floorOf(y - 0.5f);
   const float tx = x - 0.5f - static_cast<float>(ix), ty = y - 0.5f - static_cast<float>(iy);
-  const int x0 = wrapped(ix), x1 = x0 + 1 == m_cells ? 0 : x0 + 1;
-  const int y0 = wrapped(iy), y1 = y0 + 1 == m_cells ? 0 : y0 + 1;
+  const int x0 = wrapped(ix, m_cells), x1 = x0 + 1 == m_cells ? 0 : x0 + 1;
+  const int y0 = wrapped(iy, m_cells), y1 = y0 + 1 == m_cells ? 0 : y0 + 1;
   const float *southern = plane + y0 * m_cells, *northern = plane + y1 * m_cells;
   const float low = southern[x0] * (1.0f - tx) + southern[x1] * tx;
   const float high = northern[x0] * (1.0f - tx) + northern[x1] * tx;
@@ -85,7 +79,8 @@ void CanopyLight::deposit(const TriangleField& field, const JobContext& job) {
       const float offset = (static_cast<float>(i) + 0.5f) * share - 0.5f;
       const glm::vec3 at = middle + 0.6f * offset * along;
       const int layer = std::clamp(static_cast<int>((m_heightM - at.z) / m_layerM), 0, m_layers - 1);
-      const int x = wrapped(floorOf(at.x * m_cellsPerMetre)), y = wrapped(floorOf(at.y * m_cellsPerMetre));
+      const int x = wrapped(floorOf(at.x * m_cellsPerMetre), m_cells);
+      const int y = wrapped(floorOf(at.y * m_cellsPerMetre), m_cells);
       const std::size_t voxel = static_cast<std::size_t>(layer) * plane + static_cast<std::size_t>(y * m_cells + x);
       float* out = &sums[voxel * count];
       for (std::size_t d = 0; d < count; ++d) out[d] += shadow[d];

@@ -15,4 +15,11 @@ inline std::int64_t floorOf(double value) {
   return static_cast<double>(truncated) > value ? truncated - 1 : truncated;
 }
 
+/// A cell of a periodic row of `cells`; few lie outside of it, and most of those by one row.
+inline int wrapped(int cell, int cells) {
+  if (cell >= 0 && cell < cells) return cell;
+  const int m = cell % cells;
+  return m < 0 ? m + cells : m;
+}
+
 }  // namespace sward::trace

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace sward::mesh {
 namespace {
@@ -92,6 +94,35 @@ TEST(Measure, NothingAndDegenerateTrianglesAreNothing) {
   EXPECT_EQ(none.leafAreaM2, 0.0);
   EXPECT_EQ(none.partWidthM, 0.0);
   EXPECT_EQ(none.luminance, 0.0);
+}
+
+TEST(TriangleSides, TellSolidsFromLeaves) {
+  Model model = withGrey(0.1f);
+  addQuad(model, {0, 0, 0}, {0.02f, 0, 0}, {0, 0, 0.4f});           // open: triangles 0, 1
+  addBox(model, {1, 0, 0}, {0.1f, 0.2f, 0.3f});                    // wound outward: 2 to 13
+  addQuad(model, {2, 0, 0}, {0.02f, 0, 0}, {0, 0, 0.4f});          // a leaf for each side: 14 to 17
+  addQuad(model, {2, 0, 0}, {0, 0, 0.4f}, {0.02f, 0, 0});
+  Model inverted = withGrey(0.1f);
+  addBox(inverted, {0, 0, 0}, {0.1f, 0.2f, 0.3f});
+  for (glm::uvec3& triangle : inverted.triangles) std::swap(triangle.y, triangle.z);
+
+  const std::vector<Side> sides = triangleSides(model);
+  ASSERT_EQ(sides.size(), 18u);
+  const auto box = sides[2];
+  for (std::size_t t = 0; t < 18; ++t) {
+    EXPECT_EQ(sides[t], t < 2 ? Side::Open : t < 14 ? box : Side::Flat) << t;
+  }
+  // addBox's quads: low, y x x = -z, so its normals lead out.
+  EXPECT_EQ(box, Side::Out);
+  for (const Side side : triangleSides(inverted)) EXPECT_EQ(side, Side::Into);
+}
+
+TEST(TriangleSides, AThinLeafWithTwoSidesIsASolidAtAnyScale) {
+  for (const float scale : {1e-3f, 1.0f, 1e3f}) {
+    Model leaf = withGrey(0.1f);
+    addBox(leaf, scale * glm::vec3(3, 1, 0), scale * glm::vec3(0.01f, 1e-4f, 0.1f));
+    for (const Side side : triangleSides(leaf)) EXPECT_EQ(side, Side::Out) << scale;
+  }
 }
 
 }  // namespace

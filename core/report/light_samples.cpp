@@ -137,6 +137,7 @@ Elevation elevationOf(const glm::dvec3& light) {
 lpt::RepresentationInput LightSamples::input(std::optional<std::size_t> without) const {
   lpt::RepresentationInput in;
   in.hits = &train.hits;
+  in.density = density;
   in.fit.columns = shape().columns();
   in.fit.layers = shape().layers;
   in.fit.columnStart = train.hits.columnStart;

@@ -2,6 +2,7 @@
 
 #include "app/stall_report.h"
 #include "project/nearest.h"
+#include "report/section_stability.h"
 #include "report/section_tiles.h"
 #include "report/speed.h"
 
@@ -69,6 +70,7 @@ std::vector<SectionEntry> reportSections(const Program& program, const std::stri
   return {
       {"speed", "every step's rate, time and bytes against its limit or yardstick", speed, 60.0},
       {"tiles", "what seams cost, and how much maps and pictures repeat", report::tilesSection, 15.0},
+      {"stability", "fits of degenerate input against a long-double oracle", report::stabilitySection, 3.0},
   };
 }
 

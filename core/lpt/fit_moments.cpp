@@ -22,11 +22,11 @@ struct Batch {
   std::vector<std::array<Lane, kFunctions>> x;  ///< [channel]: right-hand side, then solution
 };
 
-/// Block elimination: the pivot of v^2 is mu4 + ridge - mu2^2 E[g]^T (A + ridge)^-1 E[g] - sum_j z_j^2 / d_j, with
-/// d_j = mu2 eigenvalue_j(H) + ridge and z_j = mu3 E[h]_j in the eigenbasis of H.
+/// Block elimination: the pivot of v^2 is mu4 + ridge - mu2^2 E[g]^T (A + ridge)^-1 E[g] - sum_j z_j^2 / d_j, where the
+/// quadratic form is 1 (LightSystem), d_j = mu2 eigenvalue_j(H) + ridge and z_j = mu3 E[h]_j in the eigenbasis of H.
 void factorise(const LightSystem& system, double ridge, Batch& b) {
   for (std::size_t l = 0; l < kLanes; ++l) {
-    b.pivot[l] = b.mu4[l] + ridge - b.mu2[l] * b.mu2[l] * system.meanEnergy;
+    b.pivot[l] = b.mu4[l] + ridge - b.mu2[l] * b.mu2[l];
     b.smallest[l] = b.mu2[l] * system.layerValues[0] + ridge;
   }
   for (std::size_t j = 0; j < 3; ++j) {
@@ -62,19 +62,18 @@ void solve(const LightSystem& system, const Batch& b, std::array<Lane, kFunction
       const double a = system.inverse[i * 6 + j];
       for (std::size_t l = 0; l < kLanes; ++l) light[i][l] += a * x[j][l];
     }
-    const double mean = system.meanSolved[i];
-    for (std::size_t l = 0; l < kLanes; ++l) square[l] -= b.mu2[l] * mean * x[i][l];
   }
+  // (A + ridge)^-1 E[g] is e6: of the light block the constant alone is coupled to v^2.
+  constexpr std::size_t kConstant = kLayer - 1;
+  for (std::size_t l = 0; l < kLanes; ++l) square[l] -= b.mu2[l] * x[kConstant][l];
   for (std::size_t j = 0; j < 3; ++j) {
     for (std::size_t l = 0; l < kLanes; ++l) {
       square[l] -= b.layerArrow[j][l] * b.layerInverse[j][l] * x[kLayer + j][l];
     }
   }
   for (std::size_t l = 0; l < kLanes; ++l) square[l] /= b.pivot[l];
-  for (std::size_t i = 0; i < kLayer; ++i) {
-    const double mean = system.meanSolved[i];
-    for (std::size_t l = 0; l < kLanes; ++l) x[i][l] = light[i][l] - b.mu2[l] * mean * square[l];
-  }
+  for (std::size_t i = 0; i < kLayer; ++i) x[i] = light[i];
+  for (std::size_t l = 0; l < kLanes; ++l) x[kConstant][l] -= b.mu2[l] * square[l];
   for (std::size_t j = 0; j < 3; ++j) {
     for (std::size_t l = 0; l < kLanes; ++l) {
       x[kLayer + j][l] = (x[kLayer + j][l] - b.layerArrow[j][l] * square[l]) * b.layerInverse[j][l];

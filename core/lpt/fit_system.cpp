@@ -45,9 +45,6 @@ void decomposeLights(LightSystem& system, const Matrix6& data, double ridge) {
   const Matrix6 inverse =
       eigen.eigenvectors() * eigen.eigenvalues().cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
   Eigen::Map<Matrix6>(system.inverse.data()) = inverse;
-  const Vector6 solved = inverse * mean;
-  Eigen::Map<Vector6>(system.meanSolved.data()) = solved;
-  system.meanEnergy = mean.dot(solved);
 }
 
 }  // namespace

@@ -30,12 +30,13 @@ inline constexpr double kMinPivot = 1e-8;
 ///   [ 0             mu2 H + ridge    mu3 E[h] ]      A = E[g g^T], H = E[h h^T]
 ///   [ mu2 E[g]^T    mu3 E[h]^T       mu4 + ridge ]
 ///
-/// The light block is the same for every column, and in the eigenbases of both blocks the matrix is an arrowhead.
+/// The light block is the same for every column, and in the eigenbases of both blocks the matrix is an arrowhead. The
+/// constant, the sixth of g, has no ridge, so E[g] = A e6 = (A + ridge) e6: what the light block's inverse makes of
+/// E[g] is e6, exactly, and E[g]^T (A + ridge)^-1 E[g] = E[g]^T e6 = 1. Computed from the inverse both would be off by
+/// the condition of A + ridge, which the pivot of v^2, a difference, would magnify once more.
 struct LightSystem {
   std::vector<std::array<double, 6>> functions;  ///< g of each light
   std::array<double, 36> inverse{};              ///< (A + ridge)^-1, symmetric
-  std::array<double, 6> meanSolved{};            ///< (A + ridge)^-1 E[g]
-  double meanEnergy = 0.0;                       ///< E[g]^T (A + ridge)^-1 E[g]
   std::array<double, 6> lightValues{};           ///< eigenvalues of A + ridge, ascending
   std::array<double, 6> lightMean{};             ///< E[g] in their eigenvectors
   std::array<double, 3> layerValues{};           ///< eigenvalues of H, ascending

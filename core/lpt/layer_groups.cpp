@@ -48,12 +48,13 @@ class RunGain {
  private:
   double explained(const std::array<double, 6>& light, const std::array<double, 3>& layer, double square, double mu2,
                    double mu3, double mu4) const {
-    double sum = 0.0, pivot = mu4 + m_ridge - mu2 * mu2 * m_system.meanEnergy;
+    // (A + ridge)^-1 E[g] is e6 (LightSystem).
+    double sum = 0.0, pivot = mu4 + m_ridge - mu2 * mu2;
+    square -= mu2 * light[5];
     for (std::size_t i = 0; i < 6; ++i) {
       double row = 0.0;
       for (std::size_t j = 0; j < 6; ++j) row += m_system.inverse[i * 6 + j] * light[j];
       sum += row * light[i];
-      square -= mu2 * m_system.meanSolved[i] * light[i];
     }
     for (std::size_t j = 0; j < 3; ++j) {
       double rotated = 0.0;

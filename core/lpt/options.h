@@ -31,7 +31,8 @@ constexpr bool needsSun(Basis basis) {
 ///   (1 / (W K)) sum_i w_i sum_k (f(l_k, v_i) - sample_ik)^2
 ///     + layerRidge (b2^2 + b4^2 + b5^2 + b8^2) + lightRidge (b0^2 + b1^2 + b3^2 + b6^2 + b7^2)
 /// A ridge is so relative to the summed weight of all rows, whatever the number of lights and layers, and a column's
-/// result does not change when all its weights are scaled. Rows left out (a sample that is not finite) leave W K too.
+/// result does not change when all its weights are scaled. Rows left out (a sample that is not finite) leave W K and
+/// ubar too. A PTM's texel: the same with one texel and no v.
 struct FitOptions {
   Basis basis = Basis::Lpt;
   int clusters = 2;           ///< 2 or 4, of Basis::Clustered

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sward::lpt {
 namespace {
@@ -24,10 +25,16 @@ CoefficientRange findRange(std::span<const float> values, std::size_t first, std
   if (finite.empty()) return {};
   const auto cut = static_cast<std::ptrdiff_t>(options.clampQuantile * static_cast<double>(finite.size()));
   std::nth_element(finite.begin(), finite.begin() + cut, finite.end());
-  const float low = finite[static_cast<std::size_t>(cut)];
+  float low = finite[static_cast<std::size_t>(cut)];
   const std::ptrdiff_t top = static_cast<std::ptrdiff_t>(finite.size()) - 1 - cut;
   std::nth_element(finite.begin(), finite.begin() + top, finite.end());
-  const float high = finite[static_cast<std::size_t>(top)];
+  float high = finite[static_cast<std::size_t>(top)];
+  // A range that float cannot hold (its ends are of both signs then) would be read back as infinity.
+  constexpr float kWidest = std::numeric_limits<float>::max() / 2.0f;
+  if (0.5 * static_cast<double>(high) - 0.5 * static_cast<double>(low) > 0.99 * static_cast<double>(kWidest)) {
+    low = std::max(low, -0.5f * kWidest);
+    high = std::min(high, 0.5f * kWidest);
+  }
   const auto scale =
       static_cast<float>(largestInteger(options.bits) / (static_cast<double>(high) - static_cast<double>(low)));
   // Infinite where the range is 0, or so narrow that float cannot tell: a constant.

@@ -26,8 +26,9 @@ struct QuantisedSets {
 };
 
 /// Quantises sets of `perSet` coefficients each, to options.bits, rounding to nearest. Ranges are those of the data,
-/// with options.clampQuantile cut off at each end; values that are not finite count for nothing and are stored as 0.
-/// Throws ContractError unless bits is 8 or 16, the quantile in [0, 0.5) and the sets whole.
+/// with options.clampQuantile cut off at each end, and where float could not hold high - low all beyond a quarter of
+/// the largest float, so that everything reads back finite; values that are not finite count for nothing and are stored
+/// as 0. Throws ContractError unless bits is 8 or 16, the quantile in [0, 0.5) and the sets whole.
 QuantisedSets quantiseSets(std::span<const float> sets, std::size_t perSet, const FitOptions& options,
                            const JobContext& job);
 

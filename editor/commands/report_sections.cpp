@@ -6,6 +6,7 @@
 #include "report/section_grassland.h"
 #include "report/section_quantisation.h"
 #include "report/section_relight.h"
+#include "report/section_stability.h"
 #include "report/section_tiles.h"
 #include "report/speed.h"
 
@@ -85,6 +86,7 @@ std::vector<SectionEntry> reportSections(const Program& program, const std::stri
       {"tiles", "what seams cost, and how much maps and pictures repeat", report::tilesSection, 15.0},
       {"grassland", "drawing methods against the ray-traced meadow, and what each step costs", report::grasslandSection,
        80.0},
+      {"stability", "fits of degenerate input against a long-double oracle", report::stabilitySection, 3.0},
   };
 }
 

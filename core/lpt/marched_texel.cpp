@@ -121,9 +121,9 @@ TexelLight unpackTexel(std::uint32_t code) {
 
 double unshadowed(double sharp, double cosine) {
   const double c = std::clamp(cosine, -1.0, 1.0);
-  const double sphere = sharp < 1.0 ? 2.0 / (3.0 * std::numbers::pi) *
-                                          (std::sqrt(1.0 - c * c) + (std::numbers::pi - std::acos(c)) * c)
-                                    : 0.0;
+  const double sphere =
+      sharp < 1.0 ? 2.0 / (3.0 * std::numbers::pi) * (std::sqrt(1.0 - c * c) + (std::numbers::pi - std::acos(c)) * c)
+                  : 0.0;
   return sharp * std::max(c, 0.0) + (1.0 - sharp) * sphere;
 }
 

@@ -14,10 +14,10 @@ namespace sward::lpt::detail {
 /// Where the texels of a layer set lie in the patch: each a box, `across` and `up` along the image's axes, `away` from
 /// the viewer.
 struct TexelFrame {
-  glm::dvec3 corner{0.0};                                 ///< of texel (0, 0) of layer 0, nearest the viewer
-  glm::dvec3 across{0.0}, up{0.0}, away{0.0};             ///< edges of a texel's box, metres
-  glm::dvec3 right{1.0, 0.0, 0.0}, top{0.0, 1.0, 0.0};    ///< unit vectors of the image
-  glm::dvec3 viewer{0.0, 0.0, 1.0};                       ///< unit vector toward the viewer
+  glm::dvec3 corner{0.0};                               ///< of texel (0, 0) of layer 0, nearest the viewer
+  glm::dvec3 across{0.0}, up{0.0}, away{0.0};           ///< edges of a texel's box, metres
+  glm::dvec3 right{1.0, 0.0, 0.0}, top{0.0, 1.0, 0.0};  ///< unit vectors of the image
+  glm::dvec3 viewer{0.0, 0.0, 1.0};                     ///< unit vector toward the viewer
 
   TexelFrame(trace::LayerSet set, const trace::LayerShape& shape, double sideM, double heightM);
   /// The corner of a texel's box.

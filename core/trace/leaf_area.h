@@ -13,7 +13,8 @@
 
 namespace sward::trace {
 
-/// What a voxel of a periodic patch holds of its leaves, by index (z * columns + y) * columns + x, z from the ground up.
+/// What a voxel of a periodic patch holds of its leaves, by index (z * columns + y) * columns + x, z from the ground
+/// up.
 struct LeafArea {
   static constexpr int kLines = 64;  ///< through a voxel along one axis, 8 x 8 of them
 

@@ -119,8 +119,9 @@ Result<std::vector<float>> VoxelDensity::extinctions(const glm::dvec3& l, const 
 }
 
 double VoxelDensity::opticalDepth(const glm::dvec3& from, const glm::dvec3& l, double leadM, double enough) const {
-  return VoxelMarch(m_options.columns, m_options.layers, m_voxelM, l)
-      .depth(from, leadM, enough, [&](std::size_t v) { return extinctionOf(v, l); });
+  return VoxelMarch(m_options.columns, m_options.layers, m_voxelM, l).depth(from, leadM, enough, [&](std::size_t v) {
+    return extinctionOf(v, l);
+  });
 }
 
 VoxelDensity::Dominant VoxelDensity::dominant(const glm::dvec3& at) const {
@@ -162,8 +163,8 @@ VoxelDensity::Seen VoxelDensity::seen(const Hit& hit) const {
   const mesh::Model& model = *m_patch->models[instance.model];
   const glm::uvec3 corner = model.triangles[hit.triangle];
   const glm::vec3 a = model.positions[corner.x];
-  const glm::vec3 winding = glm::mat3(instance.worldFromModel) *
-                            glm::cross(model.positions[corner.y] - a, model.positions[corner.z] - a);
+  const glm::vec3 winding =
+      glm::mat3(instance.worldFromModel) * glm::cross(model.positions[corner.y] - a, model.positions[corner.z] - a);
   const bool front = glm::dot(decodeNormal(hit.normal), winding) >= 0.0f;
   return front == (side == mesh::Side::Out) ? Seen::Outside : Seen::Inside;
 }

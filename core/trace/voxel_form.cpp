@@ -50,8 +50,8 @@ DominantVoxel dominantOf(const std::array<float, 6>& tensor) {
 std::array<float, 6> tensorOf(const DominantVoxel& voxel) {
   const glm::vec3 n = voxel.normal;
   const float one = voxel.density * voxel.share, all = voxel.density * (1.0f - voxel.share) / 3.0f;
-  return {one * n.x * n.x + all, one * n.x * n.y,       one * n.x * n.z,
-          one * n.y * n.y + all, one * n.y * n.z,       one * n.z * n.z + all};
+  return {one * n.x * n.x + all, one * n.x * n.y, one * n.x * n.z,
+          one * n.y * n.y + all, one * n.y * n.z, one * n.z * n.z + all};
 }
 
 double boundOf(const std::array<float, 6>& tensor, const glm::dvec3& l) {

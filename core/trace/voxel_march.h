@@ -30,8 +30,8 @@ class VoxelMarch {
     double next[3];  // metres along the way to the next border of each axis
     for (int axis = 0; axis < 3; ++axis) {
       const double inside = std::clamp(at[axis] - (axis == 2 ? static_cast<double>(cell[2]) : floor[axis]), 0.0, 1.0);
-      next[axis] = std::isfinite(m_metres[axis]) ? (m_step[axis] > 0 ? 1.0 - inside : inside) * m_metres[axis]
-                                                 : m_metres[axis];
+      next[axis] =
+          std::isfinite(m_metres[axis]) ? (m_step[axis] > 0 ? 1.0 - inside : inside) * m_metres[axis] : m_metres[axis];
     }
     const auto row = static_cast<std::size_t>(m_columns), plane = row * row;
     double travelled = leadM, depth = 0.0;

@@ -42,7 +42,7 @@ constexpr auto words(lpt::Basis) {
         "One value for every texel, whatever the light: least memory, no moving shadows."},
        {lpt::Basis::Clustered, "clustered", "Clustered LPT",
         "Two or four polynomials for a column: between the two above. Each new sun takes a moment."},
-       {lpt::Basis::Hsh, "hsh", "Hemispherical harmonics",
+       {lpt::Basis::Hsh, "hsh", "Harmonics (HSH)",
         "Four harmonics for every texel, for comparison. Each new sun takes a moment."},
        {lpt::Basis::Marched, "marched", "Marched shadows",
         "Shadows marched through the plants' own density: truest, bakes no lights. Each new sun takes a moment."},

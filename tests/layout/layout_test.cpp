@@ -105,7 +105,7 @@ TEST(Layout, HeavyLibrariesStayInTheirFolders) {
       {"GL/glcorearb.h", {"gpu"}},
       {"tiny_gltf.h", {"mesh"}},
       {"OpenImageIO/", {"image"}},
-      {"Eigen/", {"lpt", "report"}},
+      {"Eigen/", {"trace", "lpt", "report"}},
   };
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(SWARD_SOURCE_DIR) / "core")) {
     if (!isSource(entry.path())) continue;

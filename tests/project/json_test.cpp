@@ -89,7 +89,7 @@ TEST(ProjectJson, KeysStandInTheOrderOfTheDesign) {
   std::vector<std::string> keys;
   for (auto item = json.begin(); item != json.end(); ++item) keys.push_back(item.key());
   EXPECT_THAT(keys, testing::ElementsAre("version", "name", "patch", "lights", "sampling", "fit", "tiles", "sun", "sky",
-                                         "render", "views", "output"));
+                                         "render", "accuracy", "views", "output"));
 }
 
 TEST(ProjectJson, CurvesAndColoursStayOnOneLine) {

@@ -115,6 +115,11 @@ TEST_F(LightSections, LeavingALightOutLeavesItsSamplesOut) {
   EXPECT_EQ(in.fit.samples[lights - 1 + 1].data(), samples().train.response[2].transmitted.data());
 }
 
+/// What is not fitted to lights is not the better for one of them.
+bool readsNoLight(const lpt::Method& method, const std::string& key) {
+  return method.basis == lpt::Basis::Marched && key == "rmse_leave_one_out";
+}
+
 TEST_F(LightSections, ThereIsARowForEveryMethodThatCanBeFitted) {
   std::vector<std::string> names;
   for (const Row& r : s_fit->rows) names.push_back(r.method);
@@ -126,6 +131,7 @@ TEST_F(LightSections, ThereIsARowForEveryMethodThatCanBeFitted) {
     const Row& r = row(*s_fit, std::string(method.name));
     for (const char* key : {"rmse", "psnr_db", "bias", "max", "rmse_low", "rmse_middle", "rmse_high", "rmse_between",
                             "rmse_between_filled", "rmse_leave_one_out", "rmse_seen"}) {
+      if (readsNoLight(method, key)) continue;
       ASSERT_TRUE(r.error.contains(key)) << method.name << ' ' << key;
       EXPECT_TRUE(std::isfinite(r.error.at(key)));
     }
@@ -170,6 +176,7 @@ TEST_F(LightSections, RowsFollowFromTheTable) {
                                                        {"rmse_between", "between"},
                                                        {"rmse_between_filled", "between_filled"}};
     for (const auto& [key, protocol] : protocols) {
+      if (readsNoLight(method, key)) continue;
       const Sums sums = sumsOf(*s_fit, name, protocol);
       // The table has twelve digits.
       EXPECT_NEAR(std::sqrt(sums.squares / sums.weights), r.error.at(key), 1e-10 * r.error.at(key)) << name << key;

@@ -13,6 +13,11 @@ PARAMETER_DIGITS = 6e-6
 # Sums of float values in double precision, in another order: relative, and to the values' size where they cancel.
 ORDER = 1e-9
 SUMS = ("weight", "squares", "sum", "max")
+# Which protocol's lines an error of a row comes from, in tables that hold several.
+PROTOCOLS = {"rmse": "held_out", "rmse_seen": "held_out_seen", "rmse_leave_one_out": "leave_one_out",
+             "rmse_between": "between", "rmse_between_filled": "between_filled"}
+# Elevations that parts of the held-out error are of, degrees.
+ELEVATIONS = {"rmse_low": (0.0, 25.0), "rmse_middle": (25.0, 50.0), "rmse_high": (50.0, 90.0)}
 
 
 def read_table(path):
@@ -92,6 +97,8 @@ def check_arrays(checks, folder, section, lines):
         light = truth_file.stem.rsplit("_", 1)[1]
         truth = np.load(truth_file).astype(np.float64)
         weight = np.load(tables / f"{section}_weight.npy").astype(np.float64)
+        # Channels share the weights of their texels.
+        weight = np.broadcast_to(weight, truth.shape) if truth.shape[-weight.ndim:] == weight.shape else weight
         methods = 0
         for method in dict.fromkeys(line["method"] for line in lines):
             file = tables / f"{section}_{method}_{light}.npy"
@@ -109,15 +116,51 @@ def check_arrays(checks, folder, section, lines):
         checks.true(truth_file.name, "no method has values to compare with it", methods > 0)
 
 
+def check_protocols(checks, where, row, lines):
+    """Every kind of RMSE of a row from the lines of its protocol, and of its lights."""
+    own = [line for line in lines if line["method"] == row["method"]]
+
+    def rmse_of(some):
+        weight = math.fsum(float(line["weights"]) for line in some)
+        return math.sqrt(math.fsum(float(line["squares"]) for line in some) / weight)
+
+    for name, value in row.get("error", {}).items():
+        if name in PROTOCOLS:
+            some = [line for line in own if line["protocol"] == PROTOCOLS[name]]
+        elif name in ELEVATIONS:
+            low, high = ELEVATIONS[name]
+            some = [line for line in own if line["protocol"] == "held_out"
+                    and low <= float(line["elevation_deg"]) < high]
+        else:
+            continue
+        checks.true(where, f"no line of the table belongs to {name}", bool(some))
+        if some:
+            checks.near(where, name, value, rmse_of(some), DIGITS * value)
+
+
+def of_one_protocol(lines, protocol):
+    """Lines of a table of several protocols as a table of one has them."""
+    return [{"method": line["method"], "light": line["light"], "weight": line["weights"], "squares": line["squares"],
+             "sum": line["errors"], "max": line["max"]} for line in lines if line["protocol"] == protocol]
+
+
 def check_tables(checks, folder, sections):
     """Every table is rectangular; tables of lights give the figures of their section's rows."""
     for path in sorted((folder / "tables").glob("*.csv")):
         lines = read_table(path)
         checks.true(path.name, "has lines longer than its header", all(None not in line for line in lines))
         section = path.stem.removesuffix("_lights")
-        if section == path.stem or section not in sections or not lines or not set(SUMS) <= set(lines[0]):
+        if section == path.stem or section not in sections or not lines:
             continue
         rows = sections[section]["rows"]
+        if "protocol" in lines[0]:
+            # The row of the samples' own noise compares no prediction.
+            rows = [row for row in rows if row["method"] != "samples"]
+            for index, row in enumerate(rows):
+                check_protocols(checks, f"{section}[{index}] {row['method']}", row, lines)
+            lines = of_one_protocol(lines, "held_out")
+        if not lines or not set(SUMS) <= set(lines[0]):
+            continue
         for index, row in enumerate(rows):
             where = f"{section}[{index}] {row['method']}"
             check_sums(checks, where, row, lines)

@@ -159,7 +159,7 @@ Plot paretoOf(const std::vector<Row>& rows) {
   plot.name = "grassland_time_error";
   plot.title = "Time of a frame against its error";
   plot.xLabel = "time of a frame (ms)";
-  plot.yLabel = "RMSE without the reference's noise (linear radiance × exposure)";
+  plot.yLabel = "RMSE, linear, noise taken off";
   plot.caption = "One point a view angle; lower left is better.";
   plot.logX = plot.pareto = true;
   for (const Drawn& drawn : kDrawn) {

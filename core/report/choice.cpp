@@ -26,12 +26,6 @@ constexpr std::array<std::string_view, 4> kMetricNames{"rmse", "psnr", "ssim", "
 constexpr std::array<std::string_view, 4> kFits{"constant", "lpt8", "ptm8", "ptm"};
 constexpr int kFewLights = 8, kManyLights = 31;
 
-const lpt::Method* methodOf(std::string_view name) {
-  const auto found = std::find_if(lpt::kMethods.begin(), lpt::kMethods.end(),
-                                  [name](const lpt::Method& method) { return method.name == name; });
-  return found == lpt::kMethods.end() ? nullptr : &*found;
-}
-
 /// Layers and resolution: what the floor depends on.
 struct Layering {
   int resolution, slices;
@@ -58,7 +52,7 @@ std::vector<Candidate> candidatesOf(const Layering& layering, const project::Pro
   std::vector<Candidate> out;
   const bool lattice = project.lights.pattern == scene::LightPattern::Fibonacci;
   for (const std::string_view fit : kFits) {
-    const lpt::Method& method = *methodOf(fit);
+    const lpt::Method& method = *lpt::findMethod(fit);
     std::vector<int> lights{0};
     if (lattice && fit == "constant")
       lights = {kFewLights};
@@ -81,6 +75,13 @@ bool better(ErrorBound metric, double a, double b) {
 
 bool keeps(const AccuracyOptions& accuracy, double value) {
   return likeness(accuracy.metric) ? value >= accuracy.bound : value <= accuracy.bound;
+}
+
+/// Whether a fit may keep a bound that light traced for the very sun misses: a smoother response sometimes hides what
+/// layers get wrong (seen: by 1 %).
+bool nearly(const AccuracyOptions& accuracy, double value) {
+  constexpr double kMargin = 1.05;
+  return likeness(accuracy.metric) ? value * kMargin >= accuracy.bound : value <= accuracy.bound * kMargin;
 }
 
 std::string_view metricName(ErrorBound metric) {
@@ -107,9 +108,9 @@ class Search {
 
  private:
   Result<void> tryLayering(const Layering& layering) {
-    Candidate floor{lpt::kMethods[4], layering.resolution, layering.slices, kFewLights};
+    const Candidate floor{*lpt::findMethod("lpt8"), layering.resolution, layering.slices, kFewLights};
     SWARD_ASSIGN(const Trial least, measure(floor, true));
-    if (!least.meets) return {};
+    if (!nearly(m_choice.accuracy, least.value)) return {};
     for (const Candidate& candidate : candidatesOf(layering, m_input.project)) {
       SWARD_ASSIGN(const Trial trial, measure(candidate, false));
       if (!trial.meets) continue;
@@ -165,7 +166,7 @@ Json candidateJson(const Candidate& c) {
 }
 
 std::optional<Candidate> candidateFrom(const Json& json) {
-  const lpt::Method* method = methodOf(json.at("method").get<std::string>());
+  const lpt::Method* method = lpt::findMethod(json.at("method").get<std::string>());
   if (method == nullptr) return std::nullopt;
   return Candidate{*method, json.at("resolution"), json.at("slices"), json.at("lights")};
 }
@@ -256,7 +257,7 @@ std::string choiceText(const Choice& choice) {
     text += ": " + metric + " " + numberText(trial.value) + " in view \"" + trial.worstView + "\", draws in " +
             numberText(trial.drawMs) + " ms";
     if (!trial.floor) text += ", relights in " + numberText(trial.relightMs) + " ms";
-    text += trial.meets ? (trial.floor ? "; fits may keep it" : "; keeps it") : (trial.floor ? "; no fit can" : "");
+    text += trial.meets ? (trial.floor ? "; fits may keep it" : "; keeps it") : (trial.floor ? "; misses it" : "");
   }
   return text;
 }

@@ -18,7 +18,7 @@ namespace sward::report {
 
 /// Something that a ground may be baked as; the rest is the project's.
 struct Candidate {
-  lpt::Method method = lpt::kMethods[4];
+  lpt::Method method;
   int sliceResolution = 256;
   int slices = 16;
   int lights = 0;  ///< 0: the project's own directions, which are no Fibonacci lattice
@@ -66,7 +66,7 @@ struct ChoiceInput {
 };
 
 /// Measures candidates from the cheapest on until one keeps the bound in every view. For every pair of layers and
-/// resolution the floor is measured first: where that misses the bound no fit can keep it, and all of its fits are
+/// resolution the floor is measured first: where that misses the bound by more than a twentieth its fits are
 /// skipped. Errors are those of the drawn ground against the ray-traced reference of the same tiles, under the
 /// project's sun, with slow variation and bent grid left out; RMSE and PSNR have the reference's own noise taken off in
 /// quadrature. The same choice again (same values, views, version) comes from the cache. Errors: no view, a bake that

@@ -3,7 +3,6 @@
 
 #include "trace/test_patches.h"
 
-#include <chrono>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -131,13 +130,11 @@ TEST(Periodicity, HorizontalLightEnds) {
   const auto scene = sceneOf(patchOf(quad({0.5f, 0.5f, 0.2f}, {0.05f, 0.0f, 0.0f}, {0.0f, 0.05f, 0.1f}), 1.0, 0.5));
   const LayerHits hits = hitsOf(*scene, LayerSet::Slices, smallOptions());
   ASSERT_GT(hits.texels(), 0u);
-  const auto start = std::chrono::steady_clock::now();
   for (const glm::dvec3 light : {glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0.7, 0.7, 1e-7),
                                  glm::dvec3(-0.3, 0.2, 1e-9), glm::dvec3(1, 1e-30, 0)}) {
     const LayerLuminance luminance = lightOn(*scene, hits, light);
     for (const float value : luminance.reflected) EXPECT_TRUE(value >= 0.0f && value <= 1.0f);
   }
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
 }
 
 /// The same scene at any scale gives the same picture: nothing absolute hides in the offsets.

@@ -8,7 +8,6 @@
 #include "trace/test_patches.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -466,7 +465,6 @@ TEST(VoxelDensity, WrapsAroundAndShifts) {
 TEST(VoxelDensity, HorizontalLightEnds) {
   const auto density =
       densityOf(patchOf(quad({0.5f, 0.5f, 0.2f}, {0.05f, 0.0f, 0.0f}, {0.0f, 0.05f, 0.1f}), 1.0, 0.5), 64, 16);
-  const auto start = std::chrono::steady_clock::now();
   for (const glm::dvec3 light : {glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0.7, 0.7, 1e-7),
                                  glm::dvec3(-0.3, 0.2, 1e-9), glm::dvec3(1, 1e-30, 0), glm::dvec3(0, 1, 1e-300)}) {
     for (const double y : {0.1, 0.52}) {
@@ -477,7 +475,6 @@ TEST(VoxelDensity, HorizontalLightEnds) {
   }
   // Straight through the leaf again and again: 64 patches.
   EXPECT_GT(density->opticalDepth({0.52, 0.1, 0.22}, {0.0, 1.0, 0.0}, 0.0), 5.0);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
 }
 
 TEST(VoxelDensity, SameOnAnyNumberOfThreads) {

@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kBrick = TexelGrid::kBrick;
 constexpr std::size_t kGrain = 2048;
+constexpr std::size_t kBricksAtOnce = 64;
 constexpr int kLargestReach = 2;
 constexpr int kWidth = 2 * kLargestReach + 1;
 constexpr std::size_t kValues = 20;
@@ -149,54 +150,76 @@ Voxel voxelOf(const Values& v, float perVolume) {
   return voxel;
 }
 
-/// The sums of one brick's voxels; those without anything are all 0.
-struct BrickSums {
-  std::array<Values, kBrick * kBrick * kBrick> sums{};
-  std::array<std::uint64_t, kBrick> mask{};
+/// Where a splat's voxels lie in one brick, axis by axis; -1: in another.
+using Within = std::array<std::array<int, kWidth>, 3>;
 
-  void add(const Splat& splat, const Values& values, const glm::ivec3& origin, const TexelGrid& grid) {
-    std::array<std::array<int, kWidth>, 3> within;  // place in the brick; -1: in another
-    for (std::size_t c = 0; c < 3; ++c) {
-      const int size = c < 2 ? grid.columns : grid.layers;
-      for (std::int32_t i = 0; i < splat.axes[c].count; ++i) {
-        const int voxel = (splat.axes[c].first + i + size) % size - origin[static_cast<int>(c)];
-        within[c][static_cast<std::size_t>(i)] = voxel >= 0 && voxel < kBrick ? voxel : -1;
-      }
+Within withinBrick(const Splat& splat, const glm::ivec3& origin, const TexelGrid& grid) {
+  Within within;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const int size = c < 2 ? grid.columns : grid.layers;
+    for (std::int32_t i = 0; i < splat.axes[c].count; ++i) {
+      int voxel = splat.axes[c].first + i;
+      voxel += voxel < 0 ? size : voxel >= size ? -size : 0;
+      voxel -= origin[static_cast<int>(c)];
+      within[c][static_cast<std::size_t>(i)] = voxel >= 0 && voxel < kBrick ? voxel : -1;
     }
-    const auto count = [&](std::size_t c) { return static_cast<std::size_t>(splat.axes[c].count); };
-    for (std::size_t k = 0; k < count(2); ++k) {
-      if (within[2][k] < 0) continue;
-      for (std::size_t j = 0; j < count(1); ++j) {
-        if (within[1][j] < 0) continue;
-        const float rowWeight = splat.axes[2].weights[k] * splat.axes[1].weights[j];
-        for (std::size_t i = 0; i < count(0); ++i) {
-          if (within[0][i] < 0) continue;
-          const int bit = within[1][j] * kBrick + within[0][i];
-          Values& sum = sums[static_cast<std::size_t>(within[2][k] * kBrick * kBrick + bit)];
-          const float weight = rowWeight * splat.axes[0].weights[i];
-          for (std::size_t v = 0; v < kValues; ++v) sum[v] += weight * values[v];
-          mask[static_cast<std::size_t>(within[2][k])] |= std::uint64_t{1} << bit;
-        }
+  }
+  return within;
+}
+
+/// One bit a voxel, one word a layer.
+using Mask = std::array<std::uint64_t, kBrick>;
+
+void addTo(Mask& mask, const Splat& splat, const Within& within) {
+  std::uint64_t row = 0, layer = 0;
+  for (std::int32_t i = 0; i < splat.axes[0].count; ++i) {
+    const int x = within[0][static_cast<std::size_t>(i)];
+    row |= x < 0 ? 0 : std::uint64_t{1} << x;
+  }
+  for (std::int32_t j = 0; j < splat.axes[1].count; ++j) {
+    const int y = within[1][static_cast<std::size_t>(j)];
+    layer |= y < 0 ? 0 : row << (y * kBrick);
+  }
+  for (std::int32_t k = 0; k < splat.axes[2].count; ++k) {
+    const int z = within[2][static_cast<std::size_t>(k)];
+    if (z >= 0) mask[static_cast<std::size_t>(z)] |= layer;
+  }
+}
+
+/// The sums of one brick's voxels; between bricks all are 0.
+using BrickSums = std::array<Values, kBrick * kBrick * kBrick>;
+
+void addTo(BrickSums& sums, const Splat& splat, const Within& within, const Values& values) {
+  const auto count = [&](std::size_t c) { return static_cast<std::size_t>(splat.axes[c].count); };
+  for (std::size_t k = 0; k < count(2); ++k) {
+    if (within[2][k] < 0) continue;
+    for (std::size_t j = 0; j < count(1); ++j) {
+      if (within[1][j] < 0) continue;
+      const float rowWeight = splat.axes[2].weights[k] * splat.axes[1].weights[j];
+      const auto row = static_cast<std::size_t>((within[2][k] * kBrick + within[1][j]) * kBrick);
+      for (std::size_t i = 0; i < count(0); ++i) {
+        if (within[0][i] < 0) continue;
+        Values& sum = sums[row + static_cast<std::size_t>(within[0][i])];
+        const float weight = rowWeight * splat.axes[0].weights[i];
+        for (std::size_t v = 0; v < kValues; ++v) sum[v] += weight * values[v];
       }
     }
   }
+}
 
-  /// Appends what there is and empties the brick.
-  void emit(const glm::ivec3& origin, float perVolume, std::vector<Texel::Entry>& entries) {
-    for (int z = 0; z < kBrick; ++z) {
-      for (std::uint64_t left = mask[static_cast<std::size_t>(z)]; left != 0; left &= left - 1) {
-        const int bit = std::countr_zero(left);
-        Values& sum = sums[static_cast<std::size_t>(z * kBrick * kBrick + bit)];
-        // Weights of far voxels may underflow; what is left of them could not be divided by.
-        if (sum[0] > 1e-30f) {
-          entries.push_back({origin + glm::ivec3(bit % kBrick, bit / kBrick, z), voxelOf(sum, perVolume)});
-        }
-        sum.fill(0.0f);
-      }
-      mask[static_cast<std::size_t>(z)] = 0;
+/// Writes the voxels of the mask in their order and empties the sums.
+void emit(BrickSums& sums, const Mask& mask, const glm::ivec3& origin, float perVolume, Texel::Entry* entry) {
+  for (int z = 0; z < kBrick; ++z) {
+    for (std::uint64_t left = mask[static_cast<std::size_t>(z)]; left != 0; left &= left - 1, ++entry) {
+      const int bit = std::countr_zero(left);
+      Values& sum = sums[static_cast<std::size_t>(z * kBrick * kBrick + bit)];
+      entry->at = origin + glm::ivec3(bit % kBrick, bit / kBrick, z);
+      // Weights of far voxels may underflow; what is left of them could not be divided by.
+      if (sum[0] > 1e-30f) entry->voxel = voxelOf(sum, perVolume);
+      sum.fill(0.0f);
     }
   }
-};
+}
 
 Result<void> check(const Points& points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -222,30 +245,40 @@ Result<Texel> pointsToTexel(const Points& points, const TexelGrid& grid, double 
   });
   if (job.cancelled()) return Error::cancelled();
   const Buckets buckets = bucket(splats, grid);
-  constexpr std::size_t kBricksAtOnce = 64;
-  const std::size_t ranges = (buckets.bricks.size() + kBricksAtOnce - 1) / kBricksAtOnce;
-  std::vector<std::vector<Texel::Entry>> parts(ranges);
-  const auto perVolume = static_cast<float>(1.0 / grid.voxelVolumeM3());
-  base::parallelFor(job, buckets.bricks.size(), kBricksAtOnce, [&](std::size_t begin, std::size_t end) {
-    const auto sums = std::make_unique<BrickSums>();
-    std::vector<Texel::Entry>& entries = parts[begin / kBricksAtOnce];
-    const int row = grid.columns / kBrick;
+  const int row = grid.columns / kBrick;
+  const auto originOf = [&](std::size_t b) {
+    const auto brick = static_cast<int>(buckets.bricks[b]);
+    return kBrick * glm::ivec3(brick % row, brick / row % row, brick / row / row);
+  };
+  const std::size_t bricks = buckets.bricks.size();
+  std::vector<Mask> masks(bricks, Mask{});
+  base::parallelFor(job, bricks, kBricksAtOnce, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
-      const auto brick = static_cast<int>(buckets.bricks[b]);
-      const glm::ivec3 origin = kBrick * glm::ivec3(brick % row, brick / row % row, brick / row / row);
+      for (std::uint32_t k = buckets.first[b]; k < buckets.first[b + 1]; ++k) {
+        const Splat& splat = splats[buckets.points[k]];
+        addTo(masks[b], splat, withinBrick(splat, originOf(b), grid));
+      }
+    }
+  });
+  std::vector<std::size_t> first(bricks + 1, 0);
+  for (std::size_t b = 0; b < bricks; ++b) {
+    first[b + 1] = first[b];
+    for (const std::uint64_t layer : masks[b]) first[b + 1] += static_cast<std::size_t>(std::popcount(layer));
+  }
+  std::vector<Texel::Entry> entries(first.back());
+  const auto perVolume = static_cast<float>(1.0 / grid.voxelVolumeM3());
+  base::parallelFor(job, bricks, kBricksAtOnce, [&](std::size_t begin, std::size_t end) {
+    const auto sums = std::make_unique<BrickSums>();
+    for (std::size_t b = begin; b < end; ++b) {
+      const glm::ivec3 origin = originOf(b);
       for (std::uint32_t k = buckets.first[b]; k < buckets.first[b + 1]; ++k) {
         const std::uint32_t i = buckets.points[k];
-        sums->add(splats[i], valuesOf(points, i), origin, grid);
+        addTo(*sums, splats[i], withinBrick(splats[i], origin, grid), valuesOf(points, i));
       }
-      sums->emit(origin, perVolume, entries);
+      emit(*sums, masks[b], origin, perVolume, entries.data() + first[b]);
     }
   });
   if (job.cancelled()) return Error::cancelled();
-  std::size_t count = 0;
-  for (const auto& part : parts) count += part.size();
-  std::vector<Texel::Entry> entries;
-  entries.reserve(count);
-  for (const auto& part : parts) entries.insert(entries.end(), part.begin(), part.end());
   return Texel::fromEntries(grid, std::move(entries));
 }
 

@@ -77,6 +77,13 @@ constexpr auto words(tiles::MapMethod) {
        {tiles::MapMethod::Hashed, "hashed", "Hashed",
         "Each tile follows from its place alone; needs every tile there is."}}};
 }
+constexpr auto words(wither::Autumn) {
+  return std::array<Word<wither::Autumn>, 4>{
+      {{wither::Autumn::Normal, "normal", "Normal autumn", "Leaves yellow, then dry and fall."},
+       {wither::Autumn::AmpleWater, "ample_water", "Ample water", "Leaves yellow but keep their water and stand."},
+       {wither::Autumn::LowTemperature, "low_temperature", "Early cold", "Green and water go early and fast."},
+       {wither::Autumn::Custom, "custom", "Own curves", "Water and chlorophyll follow curves of your own."}}};
+}
 constexpr auto words(render::GroundMethod) {
   return std::array<Word<render::GroundMethod>, 3>{
       {{render::GroundMethod::March, "march", "March",

@@ -85,13 +85,15 @@ constexpr auto words(wither::Autumn) {
        {wither::Autumn::Custom, "custom", "Own curves", "Water and chlorophyll follow curves of your own."}}};
 }
 constexpr auto words(render::GroundMethod) {
-  return std::array<Word<render::GroundMethod>, 3>{
+  return std::array<Word<render::GroundMethod>, 4>{
       {{render::GroundMethod::March, "march", "March",
         "Follows each ray through the layers, front to back: true parallax, and the fastest."},
        {render::GroundMethod::BlendedNormalised, "blended", "Blended planes",
         "Draws slices and blades as planes over one another, weighted by the view."},
        {render::GroundMethod::BlendedPaper, "blended_paper", "Blended (paper)",
-        "The same with the published weights, for comparison."}}};
+        "The same with the published weights, for comparison."},
+       {render::GroundMethod::Texels, "texels", "Texels",
+        "Marches through a block of voxels, which withers at once; no layers are baked."}}};
 }
 constexpr auto words(render::ViewTransform) {
   return std::array<Word<render::ViewTransform>, 2>{

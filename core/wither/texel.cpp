@@ -1,8 +1,12 @@
 #include "wither/texel.h"
 
+#include "base/check.h"
+#include "base/parallel.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 
@@ -25,18 +29,6 @@ bool finite(const Voxel& voxel) {
          std::all_of(voxel.spread.begin(), voxel.spread.end(), [](float s) { return std::isfinite(s); });
 }
 
-Result<void> checkGrid(const TexelGrid& grid) {
-  const bool whole = grid.columns > 0 && grid.layers > 0 && grid.columns % kBrick == 0 && grid.layers % kBrick == 0;
-  if (!whole || grid.columns > 4096 || grid.layers > 4096) {
-    return Error::badInput("a texel of " + std::to_string(grid.columns) + " columns and " +
-                               std::to_string(grid.layers) + " layers is not of whole bricks",
-                           "texel", "Both must be multiples of 8, from 8 to 4096.");
-  }
-  const bool sized = std::isfinite(grid.sideM) && std::isfinite(grid.heightM) && grid.sideM > 0.0 && grid.heightM > 0.0;
-  if (!sized) return Error::badInput("a texel needs a side and a height above 0 m", "texel", "Give both in metres.");
-  return {};
-}
-
 /// Index of the brick and of the voxel in it.
 struct Place {
   std::uint32_t brick = 0, voxel = 0;
@@ -50,6 +42,18 @@ Place placeOf(const TexelGrid& grid, const glm::ivec3& at) {
 }
 
 }  // namespace
+
+Result<void> checkGrid(const TexelGrid& grid) {
+  const bool whole = grid.columns > 0 && grid.layers > 0 && grid.columns % kBrick == 0 && grid.layers % kBrick == 0;
+  if (!whole || grid.columns > 4096 || grid.layers > 4096) {
+    return Error::badInput("a texel of " + std::to_string(grid.columns) + " columns and " +
+                               std::to_string(grid.layers) + " layers is not of whole bricks",
+                           "texel", "Both must be multiples of 8, from 8 to 4096.");
+  }
+  const bool sized = std::isfinite(grid.sideM) && std::isfinite(grid.heightM) && grid.sideM > 0.0 && grid.heightM > 0.0;
+  if (!sized) return Error::badInput("a texel needs a side and a height above 0 m", "texel", "Give both in metres.");
+  return {};
+}
 
 Result<Texel> Texel::fromEntries(const TexelGrid& grid, std::vector<Entry> entries) {
   SWARD_TRY(checkGrid(grid));
@@ -76,8 +80,7 @@ Result<Texel> Texel::fromEntries(const TexelGrid& grid, std::vector<Entry> entri
   }
   Texel texel;
   texel.m_grid = grid;
-  const int row = grid.columns / kBrick;
-  texel.m_bricks.assign(static_cast<std::size_t>(row) * row * (grid.layers / kBrick), -1);
+  texel.m_bricks.assign(grid.brickCount(), -1);
   texel.m_voxels.reserve(entries.size());
   texel.m_places.reserve(entries.size());
   std::uint64_t last = ~std::uint64_t{0};
@@ -98,6 +101,42 @@ Result<Texel> Texel::fromEntries(const TexelGrid& grid, std::vector<Entry> entri
     texel.m_places.emplace_back(entry.at);
   }
   return texel;
+}
+
+Texel Texel::fromChunks(const TexelGrid& grid, std::span<const Chunk> chunks, const JobContext& job) {
+  Texel texel;
+  texel.m_grid = grid;
+  texel.m_bricks.assign(grid.brickCount(), -1);
+  std::vector<std::size_t> firstBrick(chunks.size() + 1, 0), firstVoxel(chunks.size() + 1, 0);
+  for (std::size_t c = 0; c < chunks.size(); ++c) {
+    firstBrick[c + 1] = firstBrick[c] + chunks[c].bricks.size();
+    firstVoxel[c + 1] = firstVoxel[c] + chunks[c].voxels.size();
+  }
+  SWARD_CHECK(firstVoxel.back() <= std::numeric_limits<std::uint32_t>::max());
+  texel.m_stored.resize(firstBrick.back());
+  texel.m_voxels.resize(firstVoxel.back());
+  texel.m_places.resize(firstVoxel.back());
+  base::parallelFor(job, chunks.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) texel.place(chunks[c], firstBrick[c], firstVoxel[c]);
+  });
+  return job.cancelled() ? Texel() : texel;
+}
+
+void Texel::place(const Chunk& chunk, std::size_t brick, std::size_t voxel) {
+  std::copy(chunk.voxels.begin(), chunk.voxels.end(), m_voxels.begin() + static_cast<std::ptrdiff_t>(voxel));
+  const auto row = static_cast<std::uint32_t>(m_grid.brickRow());
+  for (std::size_t i = 0; i < chunk.bricks.size(); ++i, ++brick) {
+    const std::uint32_t index = chunk.bricks[i];
+    m_bricks[index] = static_cast<std::int32_t>(brick);
+    m_stored[brick] = {static_cast<std::uint32_t>(voxel), chunk.masks[i]};
+    const glm::uvec3 corner = glm::uvec3(index % row, index / row % row, index / row / row) * std::uint32_t{kBrick};
+    for (std::uint32_t z = 0; z < kBrick; ++z) {
+      for (std::uint64_t bits = chunk.masks[i][z]; bits != 0; bits &= bits - 1) {
+        const auto bit = static_cast<std::uint32_t>(std::countr_zero(bits));
+        m_places[voxel++] = glm::u16vec3(corner + glm::uvec3(bit % kBrick, bit / kBrick, z));
+      }
+    }
+  }
 }
 
 std::int64_t Texel::find(const glm::ivec3& at) const {

@@ -16,8 +16,8 @@ struct TexelBake {
     std::shared_ptr<const wither::Texel> texel;
     wither::TexelSky sky;
   };
-  std::vector<Level> levels;       ///< finest first, each half of the one before
-  std::vector<glm::vec3> soil;     ///< reflectance of the ground under level 0's columns, [y][x]
+  std::vector<Level> levels;    ///< finest first, each half of the one before
+  std::vector<glm::vec3> soil;  ///< reflectance of the ground under level 0's columns, [y][x]
   double weathering = 0.0;
 
   const wither::TexelGrid& grid() const { return levels.front().texel->grid(); }

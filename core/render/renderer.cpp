@@ -147,13 +147,7 @@ struct Renderer::Impl {
   double madeSideM = 0.0;      ///< tiles of this size
 
   PassInput input() const {
-    return {ground.get(),
-            &*relit,
-            &map,
-            &sky,
-            &horizon,
-            daylight->sunDirection(),
-            daylight->sunIrradiance(),
+    return {ground.get(), &*relit, &map, &sky, &horizon, daylight->sunDirection(), daylight->sunIrradiance(),
             hazePerM()};
   }
 
@@ -226,9 +220,8 @@ struct Renderer::Impl {
       gpu::gl().Enable(GL_SCISSOR_TEST);
     }
     const double weight = 1.0 / samples;
-    Result<void> drawn = drawsTexels
-                             ? texelPass.draw(programs, texelInput(), drawing.frame, drawing.drawn, weight)
-                             : pass.draw(programs, input(), drawing.frame, drawing.plan, drawing.drawn, weight);
+    Result<void> drawn = drawsTexels ? texelPass.draw(programs, texelInput(), drawing.frame, drawing.drawn, weight)
+                                     : pass.draw(programs, input(), drawing.frame, drawing.plan, drawing.drawn, weight);
     gpu::gl().Disable(GL_BLEND);
     gpu::gl().Disable(GL_SCISSOR_TEST);
     SWARD_TRY(std::move(drawn));

@@ -64,8 +64,8 @@ void setPlace(gpu::Program& program, const TexelPassInput& input, const Frame& f
   setIfUsed(program, "u_eyePlace", glm::vec2(place - glm::floor(place)));
   setIfUsed(program, "u_bendM", static_cast<float>(frame.options.gridBendM));
   setIfUsed(program, "u_bendTurnsPerM", static_cast<float>(1.0 / scene::kBendM));
-  setIfUsed(program, "u_bendPhase", glm::vec2(turns(eye.y / scene::kBendM),
-                                              turns(eye.x / scene::kBendM + scene::kBendPhaseTurns)));
+  setIfUsed(program, "u_bendPhase",
+            glm::vec2(turns(eye.y / scene::kBendM), turns(eye.x / scene::kBendM + scene::kBendPhaseTurns)));
 }
 
 }  // namespace

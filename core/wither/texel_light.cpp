@@ -17,8 +17,8 @@ constexpr std::size_t kGrain = 512;
 constexpr int kRings = 3, kPerRing = 5;
 constexpr int kSkyDirections = kRings * kPerRing;
 
-/// Directions of equal cosine-weighted solid angle over the upper hemisphere (Malley: the disc, in rings of equal area),
-/// each ring turned against the one below.
+/// Directions of equal cosine-weighted solid angle over the upper hemisphere (Malley: the disc, in rings of equal
+/// area), each ring turned against the one below.
 std::array<glm::dvec3, kSkyDirections> skyDirections() {
   std::array<glm::dvec3, kSkyDirections> directions;
   for (int ring = 0; ring < kRings; ++ring) {
@@ -91,9 +91,9 @@ Result<void> marchSky(const Texel& texel, const TexelExtinction& medium, const g
 
 Result<TexelSky> marchedSky(const Texel& texel, const JobContext& job) {
   TexelSky sky;
-  sky.front.resize(texel.size());
-  sky.back.resize(texel.size());
-  sky.ground.resize(static_cast<std::size_t>(texel.grid().columns) * static_cast<std::size_t>(texel.grid().columns));
+  sky.front.assign(texel.size(), 0.0f);
+  sky.back.assign(texel.size(), 0.0f);
+  sky.ground.assign(static_cast<std::size_t>(texel.grid().columns) * static_cast<std::size_t>(texel.grid().columns), 0.0f);
   for (const glm::dvec3& l : skyDirections()) {
     SWARD_ASSIGN(const TexelExtinction medium, TexelExtinction::create(texel, l, job));
     SWARD_TRY(marchSky(texel, medium, l, job, sky));
@@ -108,10 +108,10 @@ Result<TexelSky> finerSky(const Texel& texel, const Texel& coarse, const TexelSk
     return Error::failed("the levels of a texel do not halve one another", "texel");
   }
   TexelSky sky;
-  sky.front.resize(texel.size());
-  sky.back.resize(texel.size());
+  sky.front.assign(texel.size(), 0.0f);
+  sky.back.assign(texel.size(), 0.0f);
   const auto columns = static_cast<std::size_t>(fine.columns);
-  sky.ground.resize(columns * columns);
+  sky.ground.assign(columns * columns, 0.0f);
   const std::span<const Voxel> voxels = texel.voxels();
   const std::span<const glm::u16vec3> places = texel.places();
   base::parallelFor(job, voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -150,8 +150,7 @@ Result<LitTexel> lightTexel(const Texel& texel, const TexelSky& sky, const Texel
   base::parallelFor(job, voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Voxel& voxel = voxels[i];
-      const double through =
-          sunUp ? transmitted(texel, medium, centreOf(grid, places[i]), light.toSun, lead) : 0.0;
+      const double through = sunUp ? transmitted(texel, medium, centreOf(grid, places[i]), light.toSun, lead) : 0.0;
       const Facing sides = facing(voxel.normal, medium.share(i), light.toSun);
       const glm::dvec3 sun = light.sunIrradiance * (through / std::numbers::pi);
       // Irradiance over pi of either side; skyRadiance times the share of the sky that a side sees.
@@ -168,8 +167,7 @@ Result<LitTexel> lightTexel(const Texel& texel, const TexelSky& sky, const Texel
         for (std::size_t x = 0; x < columns; ++x) {
           const glm::dvec3 foot((static_cast<double>(x) + 0.5) * grid.voxelM().x,
                                 (static_cast<double>(y) + 0.5) * grid.voxelM().y, 0.0);
-          lit.groundSun[y * columns + x] =
-              static_cast<float>(transmitted(texel, medium, foot, light.toSun, 0.0));
+          lit.groundSun[y * columns + x] = static_cast<float>(transmitted(texel, medium, foot, light.toSun, 0.0));
         }
       }
     });

@@ -12,9 +12,9 @@ namespace sward::wither {
 
 /// What lights a texel: a sun without a size and a sky of one radiance.
 struct TexelLight {
-  glm::dvec3 toSun{0.0, 0.0, 1.0};   ///< unit
-  glm::dvec3 sunIrradiance{0.0};     ///< on a plane that faces the sun, linear RGB
-  glm::dvec3 skyRadiance{0.0};       ///< mean over the upper hemisphere
+  glm::dvec3 toSun{0.0, 0.0, 1.0};  ///< unit
+  glm::dvec3 sunIrradiance{0.0};    ///< on a plane that faces the sun, linear RGB
+  glm::dvec3 skyRadiance{0.0};      ///< mean over the upper hemisphere
 };
 
 /// How much of the sky the sides of a texel's voxels see, whatever the light: cosine-weighted shares of the upper
@@ -39,8 +39,8 @@ struct LitVoxel {
   float sun = 0.0f;                   ///< transmittance toward the sun, 0 to 1; 0 with the sun under the horizon
 };
 struct LitTexel {
-  std::vector<LitVoxel> voxels;   ///< one a voxel of the texel
-  std::vector<float> groundSun;   ///< transmittance from the ground toward the sun, [y][x]
+  std::vector<LitVoxel> voxels;  ///< one a voxel of the texel
+  std::vector<float> groundSun;  ///< transmittance from the ground toward the sun, [y][x]
 };
 /// Marches every voxel and column toward the sun: the voxel's own leaf does not shade it, the march starts one voxel
 /// out. Errors: Error::cancelled().

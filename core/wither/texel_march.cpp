@@ -83,8 +83,8 @@ double extinction(const Voxel& voxel, const glm::dvec3& l) {
 
 Result<TexelExtinction> TexelExtinction::create(const Texel& texel, const glm::dvec3& l, const JobContext& job) {
   TexelExtinction medium;
-  medium.m_extinction.resize(texel.size());
-  medium.m_share.resize(texel.size());
+  medium.m_extinction.assign(texel.size(), 0.0f);
+  medium.m_share.assign(texel.size(), 0.0f);
   const std::span<const Voxel> voxels = texel.voxels();
   base::parallelFor(job, voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -116,8 +116,7 @@ double opticalDepth(const Texel& texel, const TexelExtinction& medium, const glm
     const glm::ivec3 at(wrapped(cell.x, grid.columns), wrapped(cell.y, grid.columns), static_cast<int>(cell.z));
     const Met met = meet(texel, at);
     const glm::dvec3 low = glm::floor(cell / met.width) * met.width;
-    const glm::dvec3 exits(ray.exit(0, low.x, met.width), ray.exit(1, low.y, met.width),
-                           ray.exit(2, low.z, met.width));
+    const glm::dvec3 exits(ray.exit(0, low.x, met.width), ray.exit(1, low.y, met.width), ray.exit(2, low.z, met.width));
     const int axis = nearestAxis(exits);
     const double next = std::max(exits[axis], t);
     if (!(next < std::numeric_limits<double>::infinity())) break;

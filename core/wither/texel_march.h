@@ -11,8 +11,8 @@
 
 namespace sward::wither {
 
-/// The extinctions of a texel's voxels toward one direction, 1/m, for many marches along it. Of a voxel's leaves a share
-/// has its normal, the others face everywhere: density (share |n.l| + (1 - share) / 2), the form of
+/// The extinctions of a texel's voxels toward one direction, 1/m, for many marches along it. Of a voxel's leaves a
+/// share has its normal, the others face everywhere: density (share |n.l| + (1 - share) / 2), the form of
 /// trace::DominantVoxel, with the share from S.
 class TexelExtinction {
  public:

@@ -15,8 +15,6 @@
 namespace sward::wither {
 namespace {
 
-constexpr std::size_t kBricks = 64;  ///< mixed by one task
-
 float toFloat(double value) {
   constexpr double kMost = std::numeric_limits<float>::max();
   return static_cast<float>(std::clamp(value, -kMost, kMost));
@@ -46,36 +44,45 @@ Voxel mixed(std::span<const Source* const> sources) {
     sums.add(voxel, source->density * static_cast<double>(voxel.density));
     for (std::size_t i = 0; i < 6; ++i) sums.spread[i] += source->density * static_cast<double>(voxel.spread[i]);
   }
-  if (!(sums.weight > 0.0)) return {};
+  if (!(sums.weight > 0.0)) return {};  // densities too small for the product
   Voxel out = sums.means();
   out.density = toFloat(sums.weight);
   for (std::size_t i = 0; i < 6; ++i) out.spread[i] = toFloat(sums.spread[i]);
   return out;
 }
 
-void mixBrick(std::uint32_t brick, std::vector<Source>& sources, Texel::Chunk& chunk) {
-  std::array<std::uint64_t, 8> mask{};
+using Mask = std::array<std::uint64_t, 8>;
+
+/// Of the samples that have the brick at hand, in order of the mask of all of them.
+void mixBrick(std::vector<Source>& sources, const Mask& all, std::span<Voxel> voxels) {
   std::vector<const Source*> here;
   here.reserve(sources.size());
+  auto out = voxels.begin();
   for (std::size_t word = 0; word < 8; ++word) {
-    std::uint64_t any = 0;
-    for (const Source& source : sources) any |= (*source.mask)[word];
-    for (; any != 0; any &= any - 1) {
-      const std::uint64_t bit = any & (~any + 1);
+    for (std::uint64_t rest = all[word]; rest != 0; rest &= rest - 1) {
+      const std::uint64_t bit = rest & (~rest + 1);
       here.clear();
       for (const Source& source : sources) {
         if (((*source.mask)[word] & bit) != 0) here.push_back(&source);
       }
-      const Voxel voxel = here.size() == 1 ? scaled(*here[0]->next, here[0]->density) : mixed(here);
+      *out = here.size() == 1 ? scaled(*here[0]->next, here[0]->density) : mixed(here);
+      // Too small a product for a float still is no empty voxel.
+      out->density = std::max(out->density, std::numeric_limits<float>::min());
+      ++out;
       for (Source& source : sources) source.next += ((*source.mask)[word] & bit) != 0 ? 1 : 0;
-      if (!(voxel.density > 0.0f)) continue;  // a product too small for a float
-      mask[word] |= bit;
-      chunk.voxels.push_back(voxel);
     }
   }
-  if (mask == std::array<std::uint64_t, 8>{}) return;
-  chunk.bricks.push_back(brick);
-  chunk.masks.push_back(mask);
+}
+
+/// The samples that have a brick.
+void sourcesOf(std::span<const MingleInput> samples, std::size_t brick, std::vector<Source>& sources) {
+  sources.clear();
+  for (const MingleInput& sample : samples) {
+    const std::int32_t stored = sample.texel->bricks()[brick];
+    if (stored < 0 || sample.density == 0.0) continue;
+    const Texel::Brick& at = sample.texel->stored()[static_cast<std::size_t>(stored)];
+    sources.push_back({sample.texel->voxels().data() + at.first, &at.mask, sample.density});
+  }
 }
 
 Result<void> checkSamples(std::span<const MingleInput> samples) {
@@ -100,22 +107,26 @@ Result<Texel> mingle(std::span<const MingleInput> samples, const JobContext& job
   SWARD_TRY(checkSamples(samples));
   const TexelGrid& grid = samples[0].texel->grid();
   if (grid.columns == 0) return Texel();
-  const std::size_t count = grid.brickCount();
-  std::vector<Texel::Chunk> chunks((count + kBricks - 1) / kBricks);
-  base::parallelFor(job, count, kBricks, [&](std::size_t begin, std::size_t end) {
-    std::vector<Source> sources;
-    for (std::size_t brick = begin; brick < end; ++brick) {
-      sources.clear();
-      for (const MingleInput& sample : samples) {
-        const std::int32_t stored = sample.texel->bricks()[brick];
-        if (stored < 0 || sample.density == 0.0) continue;
-        const Texel::Brick& at = sample.texel->stored()[static_cast<std::size_t>(stored)];
-        sources.push_back({sample.texel->voxels().data() + at.first, &at.mask, sample.density});
-      }
-      if (!sources.empty()) mixBrick(static_cast<std::uint32_t>(brick), sources, chunks[begin / kBricks]);
+  std::vector<std::uint32_t> bricks;
+  std::vector<Mask> masks;
+  std::vector<Source> sources;
+  for (std::size_t brick = 0; brick < grid.brickCount(); ++brick) {
+    sourcesOf(samples, brick, sources);
+    if (sources.empty()) continue;
+    bricks.push_back(static_cast<std::uint32_t>(brick));
+    masks.emplace_back();
+    for (const Source& source : sources) {
+      for (std::size_t word = 0; word < 8; ++word) masks.back()[word] |= (*source.mask)[word];
     }
-  });
-  Texel texel = Texel::fromChunks(grid, chunks, job);
+  }
+  Texel texel = Texel::fromMasks(
+      grid, bricks, masks,
+      [&](std::size_t i, std::span<Voxel> voxels) {
+        std::vector<Source> here;
+        sourcesOf(samples, bricks[i], here);
+        mixBrick(here, masks[i], voxels);
+      },
+      job);
   if (job.cancelled()) return Error::cancelled();
   return texel;
 }

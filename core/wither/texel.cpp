@@ -29,6 +29,12 @@ bool finite(const Voxel& voxel) {
          std::all_of(voxel.spread.begin(), voxel.spread.end(), [](float s) { return std::isfinite(s); });
 }
 
+std::size_t countOf(const std::array<std::uint64_t, 8>& mask) {
+  int count = 0;
+  for (const std::uint64_t word : mask) count += std::popcount(word);
+  return static_cast<std::size_t>(count);
+}
+
 /// Index of the brick and of the voxel in it.
 struct Place {
   std::uint32_t brick = 0, voxel = 0;
@@ -104,37 +110,57 @@ Result<Texel> Texel::fromEntries(const TexelGrid& grid, std::vector<Entry> entri
 }
 
 Texel Texel::fromChunks(const TexelGrid& grid, std::span<const Chunk> chunks, const JobContext& job) {
+  std::vector<std::uint32_t> bricks;
+  std::vector<std::array<std::uint64_t, 8>> masks;
+  std::vector<const Voxel*> first;
+  for (const Chunk& chunk : chunks) {
+    bricks.insert(bricks.end(), chunk.bricks.begin(), chunk.bricks.end());
+    masks.insert(masks.end(), chunk.masks.begin(), chunk.masks.end());
+    const Voxel* next = chunk.voxels.data();
+    for (const auto& mask : chunk.masks) {
+      first.push_back(next);
+      next += countOf(mask);
+    }
+  }
+  return fromMasks(
+      grid, bricks, masks,
+      [&](std::size_t i, std::span<Voxel> voxels) { std::copy_n(first[i], voxels.size(), voxels.begin()); }, job);
+}
+
+Texel Texel::fromMasks(const TexelGrid& grid, std::span<const std::uint32_t> bricks,
+                       std::span<const std::array<std::uint64_t, 8>> masks,
+                       const std::function<void(std::size_t i, std::span<Voxel> voxels)>& fill, const JobContext& job) {
+  constexpr std::size_t kBricks = 64;
   Texel texel;
   texel.m_grid = grid;
   texel.m_bricks.assign(grid.brickCount(), -1);
-  std::vector<std::size_t> firstBrick(chunks.size() + 1, 0), firstVoxel(chunks.size() + 1, 0);
-  for (std::size_t c = 0; c < chunks.size(); ++c) {
-    firstBrick[c + 1] = firstBrick[c] + chunks[c].bricks.size();
-    firstVoxel[c + 1] = firstVoxel[c] + chunks[c].voxels.size();
+  texel.m_stored.resize(bricks.size());
+  std::uint64_t voxels = 0;
+  for (std::size_t i = 0; i < bricks.size(); ++i) {
+    texel.m_stored[i] = {static_cast<std::uint32_t>(voxels), masks[i]};
+    voxels += countOf(masks[i]);
   }
-  SWARD_CHECK(firstVoxel.back() <= std::numeric_limits<std::uint32_t>::max());
-  texel.m_stored.resize(firstBrick.back());
-  texel.m_voxels.resize(firstVoxel.back());
-  texel.m_places.resize(firstVoxel.back());
-  base::parallelFor(job, chunks.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c) texel.place(chunks[c], firstBrick[c], firstVoxel[c]);
+  SWARD_CHECK_LE(voxels, std::numeric_limits<std::uint32_t>::max());
+  texel.m_voxels.resize(voxels);
+  texel.m_places.resize(voxels);
+  base::parallelFor(job, bricks.size(), kBricks, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      texel.place(bricks[i], i);
+      fill(i, {texel.m_voxels.data() + texel.m_stored[i].first, countOf(masks[i])});
+    }
   });
   return job.cancelled() ? Texel() : texel;
 }
 
-void Texel::place(const Chunk& chunk, std::size_t brick, std::size_t voxel) {
-  std::copy(chunk.voxels.begin(), chunk.voxels.end(), m_voxels.begin() + static_cast<std::ptrdiff_t>(voxel));
+void Texel::place(std::uint32_t index, std::size_t stored) {
+  m_bricks[index] = static_cast<std::int32_t>(stored);
   const auto row = static_cast<std::uint32_t>(m_grid.brickRow());
-  for (std::size_t i = 0; i < chunk.bricks.size(); ++i, ++brick) {
-    const std::uint32_t index = chunk.bricks[i];
-    m_bricks[index] = static_cast<std::int32_t>(brick);
-    m_stored[brick] = {static_cast<std::uint32_t>(voxel), chunk.masks[i]};
-    const glm::uvec3 corner = glm::uvec3(index % row, index / row % row, index / row / row) * std::uint32_t{kBrick};
-    for (std::uint32_t z = 0; z < kBrick; ++z) {
-      for (std::uint64_t bits = chunk.masks[i][z]; bits != 0; bits &= bits - 1) {
-        const auto bit = static_cast<std::uint32_t>(std::countr_zero(bits));
-        m_places[voxel++] = glm::u16vec3(corner + glm::uvec3(bit % kBrick, bit / kBrick, z));
-      }
+  const glm::uvec3 corner = glm::uvec3(index % row, index / row % row, index / row / row) * std::uint32_t{kBrick};
+  glm::u16vec3* next = m_places.data() + m_stored[stored].first;
+  for (std::uint32_t z = 0; z < kBrick; ++z) {
+    for (std::uint64_t bits = m_stored[stored].mask[z]; bits != 0; bits &= bits - 1) {
+      const auto bit = static_cast<std::uint32_t>(std::countr_zero(bits));
+      *next++ = glm::u16vec3(corner + glm::uvec3(bit % kBrick, bit / kBrick, z));
     }
   }
 }

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -76,6 +77,12 @@ class Texel {
   /// Chunks whose bricks follow each other, of voxels that are already known to be finite and above 0. For what makes
   /// texels brick by brick, in parallel. A job that is cancelled gives an empty texel.
   static Texel fromChunks(const TexelGrid& grid, std::span<const Chunk> chunks, const JobContext& job);
+  /// The same where it is known beforehand which voxels there are: fill(i, voxels) sets those of `bricks[i]`, in
+  /// parallel, as masks[i] says. Bricks ascend, masks are not empty.
+  static Texel fromMasks(const TexelGrid& grid, std::span<const std::uint32_t> bricks,
+                         std::span<const std::array<std::uint64_t, 8>> masks,
+                         const std::function<void(std::size_t i, std::span<Voxel> voxels)>& fill,
+                         const JobContext& job);
 
   const TexelGrid& grid() const { return m_grid; }
   std::size_t size() const { return m_voxels.size(); }  ///< stored voxels
@@ -95,7 +102,7 @@ class Texel {
   std::uint64_t bytes() const;  ///< in memory
 
  private:
-  void place(const Chunk& chunk, std::size_t brick, std::size_t voxel);
+  void place(std::uint32_t index, std::size_t stored);
 
   TexelGrid m_grid;
   std::vector<std::int32_t> m_bricks;  ///< [z][y][x] index into m_stored; -1: empty

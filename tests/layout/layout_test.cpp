@@ -26,6 +26,7 @@ const std::map<std::string, std::set<std::string>>& allowedIncludes() {
   static const std::map<std::string, std::set<std::string>> allowed{
       {"base", {}},
       {"image", {"base"}},
+      {"leaf", {"base", "image"}},
       {"mesh", {"base", "image"}},
       {"scene", {"base", "image", "mesh"}},
       {"trace", upToScene},
@@ -36,7 +37,7 @@ const std::map<std::string, std::set<std::string>>& allowedIncludes() {
       {"gpu", {"base", "image"}},
       {"render", with(upToScene, {"trace", "lpt", "tiles", "project", "bake", "gpu"})},
       {"export", with(upToScene, {"trace", "lpt", "tiles", "project", "bake", "gpu", "render"})},
-      {"report", with(upToScene, {"trace", "lpt", "tiles", "project", "bake", "gpu", "render"})},
+      {"report", with(upToScene, {"trace", "lpt", "tiles", "project", "bake", "gpu", "render", "leaf"})},
   };
   return allowed;
 }

@@ -1,0 +1,82 @@
+#include "leaf/ageing.h"
+
+#include "leaf/colour.h"
+#include "leaf/pigment_subtraction.h"
+#include "leaf/range_check.h"
+
+#include <string>
+
+namespace sward::leaf {
+namespace {
+
+LeafColourDetail colourOf(const Spectrum& reflectance, const Spectrum& transmittance) {
+  const GamutColour r = intoGamut(linearFromSpectrum(reflectance)), t = intoGamut(linearFromSpectrum(transmittance));
+  return {{r.linear, t.linear}, r.desaturation, t.desaturation, 0};
+}
+
+}  // namespace
+
+Result<void> checkOptions(const LeafOptions& options) {
+  SWARD_TRY(checkContents(freshContents(options)));
+  const std::string where = "colour of the leaf";
+  SWARD_TRY(checkRange("structureWhenDry", options.structureWhenDry, 1.0, 100.0, "plates", where));
+  SWARD_TRY(checkRange("brownWhenDry", options.brownWhenDry, 0.0, 100.0, "units", where));
+  SWARD_TRY(checkRange("subtractionLevel", options.subtractionLevel, 0.0, 1.0, "", where));
+  SWARD_TRY(checkRange("subtractionStrength", options.subtractionStrength, 0.0, 100.0, "", where));
+  SWARD_TRY(checkRange("subtractionTransmission", options.subtractionTransmission, 0.0, 1.0, "", where));
+  // Light that is neither reflected nor lost passes.
+  if (options.subtractionLevel * (1.0 + options.subtractionTransmission) > 1.0 &&
+      options.model == LeafOptions::Model::Subtraction) {
+    return Error::badInput("subtractionLevel and subtractionTransmission give back more light than arrives", where,
+                           "Lower one until level x (1 + transmission) is 1 at most.");
+  }
+  return {};
+}
+
+Result<LeafColourDetail> leafColour(const LeafContents& contents) {
+  SWARD_ASSIGN(const LeafSpectra s, leafSpectra(contents, Calibration::ProspectD, SurfaceLight::Removed));
+  return colourOf(s.reflectance, s.transmittance);
+}
+
+LeafContents freshContents(const LeafOptions& options) {
+  return {options.structure, options.chlorophyll, options.carotenoid, 0.0, options.waterCm, options.dryMatter};
+}
+
+LeafContents agedContents(const LeafOptions& options, double chlorophyllShare, double waterShare) {
+  const double lost = 1.0 - waterShare;
+  LeafContents aged = freshContents(options);
+  aged.chlorophyll *= chlorophyllShare;
+  aged.waterCm *= waterShare;
+  aged.structure += lost * (options.structureWhenDry - options.structure);
+  aged.brown = lost * lost * options.brownWhenDry;
+  return aged;
+}
+
+Result<LeafColourDetail> agedColour(const LeafOptions& options, double chlorophyllShare, double waterShare) {
+  SWARD_TRY(checkOptions(options));
+  SWARD_TRY(checkRange("the share of chlorophyll", chlorophyllShare, 0.0, 1.0, "", "colour of a leaf"));
+  SWARD_TRY(checkRange("the share of water", waterShare, 0.0, 1.0, "", "colour of a leaf"));
+  if (options.model == LeafOptions::Model::Plates) {
+    return leafColour(agedContents(options, chlorophyllShare, waterShare));
+  }
+  SWARD_ASSIGN(const SubtractionSpectra s, subtractionSpectra(options, chlorophyllShare));
+  LeafColourDetail detail = colourOf(s.reflectance, s.transmittance);
+  detail.clampedSamples = s.clamped;
+  return detail;
+}
+
+Result<AgeingColours> AgeingColours::build(const LeafOptions& options) {
+  AgeingColours table;
+  table.m_nodes.reserve(kChlorophyllNodes * kWaterNodes);
+  for (std::size_t j = 0; j < kWaterNodes; ++j) {
+    for (std::size_t i = 0; i < kChlorophyllNodes; ++i) {
+      const double root = static_cast<double>(i) / static_cast<double>(kChlorophyllNodes - 1);
+      const double water = static_cast<double>(j) / static_cast<double>(kWaterNodes - 1);
+      SWARD_ASSIGN(const LeafColourDetail detail, agedColour(options, root * root, water));
+      table.m_nodes.push_back(detail.colour);
+    }
+  }
+  return table;
+}
+
+}  // namespace sward::leaf

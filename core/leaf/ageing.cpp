@@ -1,16 +1,34 @@
 #include "leaf/ageing.h"
 
+#include "image/colour.h"
 #include "leaf/colour.h"
 #include "leaf/pigment_subtraction.h"
 #include "leaf/range_check.h"
 
+#include <algorithm>
 #include <string>
 
 namespace sward::leaf {
 namespace {
 
+// A channel is no wavelength: that of a saturated colour may hold more than all of the light. Both colours then move
+// towards their greys, whose sum is below 1, until no channel gives back more than arrives.
+void keepEnergy(GamutColour& r, GamutColour& t) {
+  const double greyR = image::xyzFromLinear(r.linear).y, greyT = image::xyzFromLinear(t.linear).y;
+  const double grey = greyR + greyT;
+  double kept = 1.0;
+  for (int c = 0; c < 3; ++c) {
+    const double sum = r.linear[c] + t.linear[c];
+    if (sum > 1.0) kept = std::min(kept, std::max(0.0, (1.0 - grey) / (sum - grey)));
+  }
+  if (kept == 1.0) return;
+  r = {greyR + kept * (r.linear - greyR), 1.0 - kept * (1.0 - r.desaturation)};
+  t = {greyT + kept * (t.linear - greyT), 1.0 - kept * (1.0 - t.desaturation)};
+}
+
 LeafColourDetail colourOf(const Spectrum& reflectance, const Spectrum& transmittance) {
-  const GamutColour r = intoGamut(linearFromSpectrum(reflectance)), t = intoGamut(linearFromSpectrum(transmittance));
+  GamutColour r = intoGamut(linearFromSpectrum(reflectance)), t = intoGamut(linearFromSpectrum(transmittance));
+  keepEnergy(r, t);
   return {{r.linear, t.linear}, r.desaturation, t.desaturation, 0};
 }
 
@@ -21,6 +39,7 @@ Result<void> checkOptions(const LeafOptions& options) {
   const std::string where = "colour of the leaf";
   SWARD_TRY(checkRange("structureWhenDry", options.structureWhenDry, 1.0, 100.0, "plates", where));
   SWARD_TRY(checkRange("brownWhenDry", options.brownWhenDry, 0.0, 100.0, "units", where));
+  SWARD_TRY(checkRange("surfaceShare", options.surfaceShare, 0.0, 1.0, "", where));
   SWARD_TRY(checkRange("subtractionLevel", options.subtractionLevel, 0.0, 1.0, "", where));
   SWARD_TRY(checkRange("subtractionStrength", options.subtractionStrength, 0.0, 100.0, "", where));
   SWARD_TRY(checkRange("subtractionTransmission", options.subtractionTransmission, 0.0, 1.0, "", where));
@@ -33,8 +52,8 @@ Result<void> checkOptions(const LeafOptions& options) {
   return {};
 }
 
-Result<LeafColourDetail> leafColour(const LeafContents& contents) {
-  SWARD_ASSIGN(const LeafSpectra s, leafSpectra(contents, Calibration::ProspectD, SurfaceLight::Removed));
+Result<LeafColourDetail> leafColour(const LeafContents& contents, SurfaceLight light) {
+  SWARD_ASSIGN(const LeafSpectra s, leafSpectra(contents, Calibration::ProspectD, light));
   return colourOf(s.reflectance, s.transmittance);
 }
 
@@ -57,7 +76,7 @@ Result<LeafColourDetail> agedColour(const LeafOptions& options, double chlorophy
   SWARD_TRY(checkRange("the share of chlorophyll", chlorophyllShare, 0.0, 1.0, "", "colour of a leaf"));
   SWARD_TRY(checkRange("the share of water", waterShare, 0.0, 1.0, "", "colour of a leaf"));
   if (options.model == LeafOptions::Model::Plates) {
-    return leafColour(agedContents(options, chlorophyllShare, waterShare));
+    return leafColour(agedContents(options, chlorophyllShare, waterShare), {options.surfaceShare});
   }
   SWARD_ASSIGN(const SubtractionSpectra s, subtractionSpectra(options, chlorophyllShare));
   LeafColourDetail detail = colourOf(s.reflectance, s.transmittance);

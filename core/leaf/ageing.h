@@ -16,8 +16,8 @@ namespace sward::leaf {
 /// An error names the first value of the options that is not finite or outside its range, with its unit.
 Result<void> checkOptions(const LeafOptions& options);
 
-/// Linear Rec. 709 RGB under D65, in [0, 1], without the light that the surface reflects (SurfaceLight::Removed): a
-/// diffuser of these colours, with a specular part beside it.
+/// Linear Rec. 709 RGB under D65, in [0, 1], of which no channel's sum is above 1: a diffuser of these colours. A
+/// highlight, if any, comes on top.
 struct LeafColour {
   glm::dvec3 reflectance{0.0}, transmittance{0.0};
 };
@@ -25,13 +25,13 @@ struct LeafColour {
 /// The same with what it cost to make it.
 struct LeafColourDetail {
   LeafColour colour;
-  /// How far the colours were moved into the gamut (GamutColour), 0 where they were inside.
+  /// How far the colours were moved into the gamut (GamutColour) and below a sum of 1, 0 where they were there.
   double desaturatedReflectance = 0.0, desaturatedTransmittance = 0.0;
   int clampedSamples = 0;  ///< of the subtraction model
 };
 
 /// Of one leaf, from its contents, through plates with the coefficients of PROSPECT-D. Errors of checkContents.
-Result<LeafColourDetail> leafColour(const LeafContents& contents);
+Result<LeafColourDetail> leafColour(const LeafContents& contents, SurfaceLight light = kSurfaceRemoved);
 
 /// What a leaf of these options contains when it is fresh, and when the given shares of its chlorophyll and water
 /// remain, each in [0, 1]. Carotenoids and dry matter stay. Without water, structure is options.structureWhenDry and

@@ -176,7 +176,7 @@ PlateLight platesLight(const PlateSurface& surface, double depth, double structu
   const PlateLight more = pile(one, structure - 1.0);
   const double between = 1.0 / (1.0 - more.reflectance * one.r);
   PlateLight leaf{one.rLit + one.tLit * more.reflectance * one.t * between, one.tLit * more.transmittance * between};
-  if (light == SurfaceLight::Removed) leaf.reflectance -= 1.0 - surface.litPasses;
+  leaf.reflectance -= (1.0 - light.share) * (1.0 - surface.litPasses);
   return leaf;
 }
 

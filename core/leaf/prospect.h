@@ -32,11 +32,12 @@ struct PlateSurface {
 };
 PlateSurface plateSurface(double index);
 
-/// What becomes of the light that the first surface reflects. It is colourless and near the mirror direction.
-enum class SurfaceLight {
-  Kept,    ///< part of the reflectance, as an integrating sphere measures it
-  Removed  ///< left out: the shading has a specular part of its own. About 0.03 to 0.04 less in every reflectance
+/// Part of the light reflected by the first surface, in [0, 1], that the reflectance includes. That light is colourless
+/// and 0.03 to 0.04 of all. 1: all of it, as an integrating sphere measures; 0: none, the shading has a specular part.
+struct SurfaceLight {
+  double share = 1.0;
 };
+inline constexpr SurfaceLight kSurfaceKept{1.0}, kSurfaceRemoved{0.0};
 
 /// Both in [0, 1] with a sum of 1 at most.
 struct PlateLight {
@@ -49,8 +50,8 @@ PlateLight platesLight(const PlateSurface& surface, double depth, double structu
 /// Contents of a leaf per area of one side; defaults are a healthy leaf of grass.
 struct LeafContents {
   double structure = 1.5;     ///< number of plates, 1 to 100
-  double chlorophyll = 45.0;  ///< a and b, ug/cm2, 0 to 1000
-  double carotenoid = 9.0;    ///< ug/cm2, 0 to 1000
+  double chlorophyll = 35.0;  ///< a and b, ug/cm2, 0 to 1000
+  double carotenoid = 2.4;    ///< ug/cm2, 0 to 1000
   double brown = 0.0;         ///< PROSPECT's unit, 0 to 100
   double waterCm = 0.012;     ///< 0 to 10
   double dryMatter = 0.0045;  ///< g/cm2, 0 to 1

@@ -39,6 +39,7 @@ Result<void> checkOptions(const LeafOptions& options) {
   const std::string where = "colour of the leaf";
   SWARD_TRY(checkRange("structureWhenDry", options.structureWhenDry, 1.0, 100.0, "plates", where));
   SWARD_TRY(checkRange("brownWhenDry", options.brownWhenDry, 0.0, 100.0, "units", where));
+  SWARD_TRY(checkRange("carotenoidWhenDry", options.carotenoidWhenDry, 0.0, 1000.0, "ug/cm2", where));
   SWARD_TRY(checkRange("surfaceShare", options.surfaceShare, 0.0, 1.0, "", where));
   SWARD_TRY(checkRange("subtractionLevel", options.subtractionLevel, 0.0, 1.0, "", where));
   SWARD_TRY(checkRange("subtractionStrength", options.subtractionStrength, 0.0, 100.0, "", where));
@@ -68,6 +69,7 @@ LeafContents agedContents(const LeafOptions& options, double chlorophyllShare, d
   aged.waterCm *= waterShare;
   aged.structure += lost * (options.structureWhenDry - options.structure);
   aged.brown = lost * lost * options.brownWhenDry;
+  aged.carotenoid += lost * lost * (options.carotenoidWhenDry - options.carotenoid);
   return aged;
 }
 
@@ -92,7 +94,11 @@ Result<AgeingColours> AgeingColours::build(const LeafOptions& options) {
       const double root = static_cast<double>(i) / static_cast<double>(kChlorophyllNodes - 1);
       const double water = static_cast<double>(j) / static_cast<double>(kWaterNodes - 1);
       SWARD_ASSIGN(const LeafColourDetail detail, agedColour(options, root * root, water));
-      table.m_nodes.push_back(detail.colour);
+      Node& node = table.m_nodes.emplace_back();
+      for (int c = 0; c < 3; ++c) {
+        node[static_cast<std::size_t>(c)] = static_cast<float>(detail.colour.reflectance[c]);
+        node[static_cast<std::size_t>(c) + 3] = static_cast<float>(detail.colour.transmittance[c]);
+      }
     }
   }
   return table;

@@ -5,6 +5,7 @@
 #include "leaf/prospect.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -34,9 +35,10 @@ struct LeafColourDetail {
 Result<LeafColourDetail> leafColour(const LeafContents& contents, SurfaceLight light = kSurfaceRemoved);
 
 /// What a leaf of these options contains when it is fresh, and when the given shares of its chlorophyll and water
-/// remain, each in [0, 1]. Carotenoids and dry matter stay. Without water, structure is options.structureWhenDry and
-/// brown pigments options.brownWhenDry: structure rises evenly with the loss (cells collapse as they empty), brown
-/// pigments with its square (they come of phenols that oxidise in cells that die, late: Feret et al. 2017, section 2).
+/// remain, each in [0, 1]. Dry matter stays; carotenoids stay while the leaf has its water, as in the paper. Without
+/// water, structure, brown pigments and carotenoids are what the options say (...WhenDry): structure moves evenly with
+/// the loss (cells collapse as they empty), the pigments with its square (brown ones come of phenols that oxidise in
+/// cells that die, late: Feret et al. 2017).
 LeafContents freshContents(const LeafOptions& options);
 LeafContents agedContents(const LeafOptions& options, double chlorophyllShare, double waterShare);
 
@@ -47,7 +49,7 @@ Result<LeafColourDetail> agedColour(const LeafOptions& options, double chlorophy
 /// function colours change evenly (by Beer's law they change fastest where little is left), and in water's.
 class AgeingColours {
  public:
-  static constexpr std::size_t kChlorophyllNodes = 33, kWaterNodes = 17;
+  static constexpr std::size_t kChlorophyllNodes = 65, kWaterNodes = 33;
 
   /// Errors of agedColour.
   static Result<AgeingColours> build(const LeafOptions& options);
@@ -60,20 +62,24 @@ class AgeingColours {
     const std::size_t i = std::min(static_cast<std::size_t>(u), kChlorophyllNodes - 2);
     const std::size_t j = std::min(static_cast<std::size_t>(v), kWaterNodes - 2);
     const double x = u - static_cast<double>(i), y = v - static_cast<double>(j);
-    const LeafColour* low = m_nodes.data() + j * kChlorophyllNodes + i;
-    const LeafColour* high = low + kChlorophyllNodes;
+    const Node* low = m_nodes.data() + j * kChlorophyllNodes + i;
+    const Node* high = low + kChlorophyllNodes;
     const double a = (1.0 - x) * (1.0 - y), b = x * (1.0 - y), c = (1.0 - x) * y, d = x * y;
-    return {
-        a * low[0].reflectance + b * low[1].reflectance + c * high[0].reflectance + d * high[1].reflectance,
-        a * low[0].transmittance + b * low[1].transmittance + c * high[0].transmittance + d * high[1].transmittance};
+    std::array<double, 6> sum{};
+    for (std::size_t k = 0; k < sum.size(); ++k) {
+      sum[k] = a * static_cast<double>(low[0][k]) + b * static_cast<double>(low[1][k]) +
+               c * static_cast<double>(high[0][k]) + d * static_cast<double>(high[1][k]);
+    }
+    return {{sum[0], sum[1], sum[2]}, {sum[3], sum[4], sum[5]}};
   }
 
-  std::size_t bytes() const { return m_nodes.size() * sizeof(LeafColour); }
+  std::size_t bytes() const { return m_nodes.size() * sizeof(Node); }
 
  private:
   static double limited(double share) { return share > 0.0 ? std::min(share, 1.0) : 0.0; }
 
-  std::vector<LeafColour> m_nodes;  ///< rows of kChlorophyllNodes, from no water to all of it
+  using Node = std::array<float, 6>;  ///< reflectance, transmittance
+  std::vector<Node> m_nodes;          ///< rows of kChlorophyllNodes, from no water to all of it
 };
 
 }  // namespace sward::leaf

@@ -7,14 +7,14 @@
 namespace sward::leaf {
 
 /// What a leaf contains, from its measured reflectance with surface light, as an integrating sphere sees it: least
-/// squares over all samples of structure, chlorophyll, carotenoids, brown pigments and dry matter, with PROSPECT-D.
-/// Water absorbs too little of what is visible to be found, and is 0. The transmittance, where it was measured, counts
-/// as much; nullptr: it was not, and structure and contents are then known only in proportion where a leaf is opaque.
-/// Some 3000 evaluations, about 30 ms.
+/// squares, weighted by what the eye sees of a wavelength, of structure, chlorophyll, carotenoids, brown pigments and
+/// dry matter, with PROSPECT-D. Water absorbs too little of what is visible to be found, and is 0. The transmittance,
+/// where it was measured, counts as much; nullptr: it was not, and structure and contents are then known only in
+/// proportion where a leaf is opaque. Some 3000 evaluations, about 30 ms.
 struct FittedContents {
   LeafContents contents;
   LeafSpectra spectra;  ///< of these contents
-  double rmse = 0.0;    ///< of the reflectance
+  double rmse = 0.0;    ///< of the reflectance over all samples, unweighted
   double max = 0.0;
 };
 FittedContents fitContents(const Spectrum& reflectance, const Spectrum* transmittance = nullptr);

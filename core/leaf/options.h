@@ -13,12 +13,15 @@ struct LeafOptions {
 
   double structure = 1.5;     ///< N, number of plates, 1 to 100: 1 to 1.5 in grasses (Jacquemoud and Baret 1990)
   double chlorophyll = 35.0;  ///< a and b, ug/cm2, 0 to 1000
-  /// ug/cm2, 0 to 1000; stays when the leaf ages. To 35 of chlorophyll, the paper's moles of 27 : 9 : 4 (by 894, 907
-  /// and 550 g/mol).
-  double carotenoid = 2.4;
+  /// ug/cm2, 0 to 1000: between the paper's moles (2.4 to 35 of chlorophyll) and what broad leaves have (8).
+  double carotenoid = 5.0;
   double waterCm = 0.012;     ///< equivalent thickness of the water, cm, 0 to 10
   double dryMatter = 0.0045;  ///< g/cm2, 0 to 1
-  double brownWhenDry = 0.3;  ///< brown pigments without water, PROSPECT's unit, 0 to 100; none when fresh
+  /// Brown pigments without water, PROSPECT's unit, 0 to 100; none when fresh. Measured dry grasses have 0.6.
+  double brownWhenDry = 0.35;
+  /// Carotenoids without water, ug/cm2, 0 to 1000. The paper keeps them all (set it to `carotenoid`), which leaves
+  /// straw orange; measured dry grasses have 0.3 to 1, measured yellow leaves still all of them.
+  double carotenoidWhenDry = 1.5;
   /// Plates without water, 1 to 100: above 2.5 in senescent leaves, whose inner structure falls apart and lets air
   /// between the walls of cells (Jacquemoud and Baret 1990). It makes straw bright.
   double structureWhenDry = 2.6;

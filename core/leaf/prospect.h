@@ -51,7 +51,7 @@ PlateLight platesLight(const PlateSurface& surface, double depth, double structu
 struct LeafContents {
   double structure = 1.5;     ///< number of plates, 1 to 100
   double chlorophyll = 35.0;  ///< a and b, ug/cm2, 0 to 1000
-  double carotenoid = 2.4;    ///< ug/cm2, 0 to 1000
+  double carotenoid = 5.0;    ///< ug/cm2, 0 to 1000
   double brown = 0.0;         ///< PROSPECT's unit, 0 to 100
   double waterCm = 0.012;     ///< 0 to 10
   double dryMatter = 0.0045;  ///< g/cm2, 0 to 1

@@ -26,18 +26,22 @@ const std::map<std::string, std::set<std::string>>& allowedIncludes() {
   static const std::map<std::string, std::set<std::string>> allowed{
       {"base", {}},
       {"image", {"base"}},
-      {"leaf", {"base", "image"}},
       {"mesh", {"base", "image"}},
       {"scene", {"base", "image", "mesh"}},
       {"trace", upToScene},
+      {"leaf", {"base", "image"}},
+      {"terrain", upToScene},
+      {"wither", with(upToScene, {"trace", "leaf"})},
       {"lpt", with(upToScene, {"trace"})},
       {"tiles", with(upToScene, {"trace", "lpt"})},
       {"project", {"base"}},
-      {"bake", with(upToScene, {"trace", "lpt", "tiles", "project"})},
+      {"bake", with(upToScene, {"trace", "lpt", "tiles", "project", "leaf", "terrain", "wither"})},
       {"gpu", {"base", "image"}},
-      {"render", with(upToScene, {"trace", "lpt", "tiles", "project", "bake", "gpu"})},
-      {"export", with(upToScene, {"trace", "lpt", "tiles", "project", "bake", "gpu", "render"})},
-      {"report", with(upToScene, {"trace", "lpt", "tiles", "project", "bake", "gpu", "render", "leaf"})},
+      {"render", with(upToScene, {"trace", "leaf", "terrain", "wither", "lpt", "tiles", "project", "bake", "gpu"})},
+      {"export",
+       with(upToScene, {"trace", "leaf", "terrain", "wither", "lpt", "tiles", "project", "bake", "gpu", "render"})},
+      {"report",
+       with(upToScene, {"trace", "leaf", "terrain", "wither", "lpt", "tiles", "project", "bake", "gpu", "render"})},
   };
   return allowed;
 }

@@ -1,8 +1,12 @@
 #include "wither/texel.h"
 
+#include "base/check.h"
+#include "base/parallel.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 
@@ -25,16 +29,10 @@ bool finite(const Voxel& voxel) {
          std::all_of(voxel.spread.begin(), voxel.spread.end(), [](float s) { return std::isfinite(s); });
 }
 
-Result<void> checkGrid(const TexelGrid& grid) {
-  const bool whole = grid.columns > 0 && grid.layers > 0 && grid.columns % kBrick == 0 && grid.layers % kBrick == 0;
-  if (!whole || grid.columns > 4096 || grid.layers > 4096) {
-    return Error::badInput("a texel of " + std::to_string(grid.columns) + " columns and " +
-                               std::to_string(grid.layers) + " layers is not of whole bricks",
-                           "texel", "Both must be multiples of 8, from 8 to 4096.");
-  }
-  const bool sized = std::isfinite(grid.sideM) && std::isfinite(grid.heightM) && grid.sideM > 0.0 && grid.heightM > 0.0;
-  if (!sized) return Error::badInput("a texel needs a side and a height above 0 m", "texel", "Give both in metres.");
-  return {};
+std::size_t countOf(const std::array<std::uint64_t, 8>& mask) {
+  int count = 0;
+  for (const std::uint64_t word : mask) count += std::popcount(word);
+  return static_cast<std::size_t>(count);
 }
 
 /// Index of the brick and of the voxel in it.
@@ -50,6 +48,18 @@ Place placeOf(const TexelGrid& grid, const glm::ivec3& at) {
 }
 
 }  // namespace
+
+Result<void> checkGrid(const TexelGrid& grid) {
+  const bool whole = grid.columns > 0 && grid.layers > 0 && grid.columns % kBrick == 0 && grid.layers % kBrick == 0;
+  if (!whole || grid.columns > 4096 || grid.layers > 4096) {
+    return Error::badInput("a texel of " + std::to_string(grid.columns) + " columns and " +
+                               std::to_string(grid.layers) + " layers is not of whole bricks",
+                           "texel", "Both must be multiples of 8, from 8 to 4096.");
+  }
+  const bool sized = std::isfinite(grid.sideM) && std::isfinite(grid.heightM) && grid.sideM > 0.0 && grid.heightM > 0.0;
+  if (!sized) return Error::badInput("a texel needs a side and a height above 0 m", "texel", "Give both in metres.");
+  return {};
+}
 
 Result<Texel> Texel::fromEntries(const TexelGrid& grid, std::vector<Entry> entries) {
   SWARD_TRY(checkGrid(grid));
@@ -76,8 +86,7 @@ Result<Texel> Texel::fromEntries(const TexelGrid& grid, std::vector<Entry> entri
   }
   Texel texel;
   texel.m_grid = grid;
-  const int row = grid.columns / kBrick;
-  texel.m_bricks.assign(static_cast<std::size_t>(row) * row * (grid.layers / kBrick), -1);
+  texel.m_bricks.assign(grid.brickCount(), -1);
   texel.m_voxels.reserve(entries.size());
   texel.m_places.reserve(entries.size());
   std::uint64_t last = ~std::uint64_t{0};
@@ -98,6 +107,62 @@ Result<Texel> Texel::fromEntries(const TexelGrid& grid, std::vector<Entry> entri
     texel.m_places.emplace_back(entry.at);
   }
   return texel;
+}
+
+Texel Texel::fromChunks(const TexelGrid& grid, std::span<const Chunk> chunks, const JobContext& job) {
+  std::vector<std::uint32_t> bricks;
+  std::vector<std::array<std::uint64_t, 8>> masks;
+  std::vector<const Voxel*> first;
+  for (const Chunk& chunk : chunks) {
+    bricks.insert(bricks.end(), chunk.bricks.begin(), chunk.bricks.end());
+    masks.insert(masks.end(), chunk.masks.begin(), chunk.masks.end());
+    const Voxel* next = chunk.voxels.data();
+    for (const auto& mask : chunk.masks) {
+      first.push_back(next);
+      next += countOf(mask);
+    }
+  }
+  return fromMasks(
+      grid, bricks, masks,
+      [&](std::size_t i, std::span<Voxel> voxels) { std::copy_n(first[i], voxels.size(), voxels.begin()); }, job);
+}
+
+Texel Texel::fromMasks(const TexelGrid& grid, std::span<const std::uint32_t> bricks,
+                       std::span<const std::array<std::uint64_t, 8>> masks,
+                       const std::function<void(std::size_t i, std::span<Voxel> voxels)>& fill, const JobContext& job) {
+  constexpr std::size_t kBricks = 64;
+  Texel texel;
+  texel.m_grid = grid;
+  texel.m_bricks.assign(grid.brickCount(), -1);
+  texel.m_stored.resize(bricks.size());
+  std::uint64_t voxels = 0;
+  for (std::size_t i = 0; i < bricks.size(); ++i) {
+    texel.m_stored[i] = {static_cast<std::uint32_t>(voxels), masks[i]};
+    voxels += countOf(masks[i]);
+  }
+  SWARD_CHECK_LE(voxels, std::numeric_limits<std::uint32_t>::max());
+  texel.m_voxels.resize(voxels);
+  texel.m_places.resize(voxels);
+  base::parallelFor(job, bricks.size(), kBricks, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      texel.place(bricks[i], i);
+      fill(i, {texel.m_voxels.data() + texel.m_stored[i].first, countOf(masks[i])});
+    }
+  });
+  return job.cancelled() ? Texel() : texel;
+}
+
+void Texel::place(std::uint32_t index, std::size_t stored) {
+  m_bricks[index] = static_cast<std::int32_t>(stored);
+  const auto row = static_cast<std::uint32_t>(m_grid.brickRow());
+  const glm::uvec3 corner = glm::uvec3(index % row, index / row % row, index / row / row) * std::uint32_t{kBrick};
+  glm::u16vec3* next = m_places.data() + m_stored[stored].first;
+  for (std::uint32_t z = 0; z < kBrick; ++z) {
+    for (std::uint64_t bits = m_stored[stored].mask[z]; bits != 0; bits &= bits - 1) {
+      const auto bit = static_cast<std::uint32_t>(std::countr_zero(bits));
+      *next++ = glm::u16vec3(corner + glm::uvec3(bit % kBrick, bit / kBrick, z));
+    }
+  }
 }
 
 std::int64_t Texel::find(const glm::ivec3& at) const {

@@ -10,6 +10,10 @@
 
 namespace sward::wither {
 
+/// Specular of every voxel that is made from meshes, which say nothing of their gloss: a leaf's wax is alike
+/// everywhere.
+inline constexpr float kLeafSpecular = 0.3f;
+
 /// A texel of a patch at rest, and what its voxels hang on.
 struct VoxelisedPatch {
   Texel texel;

@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -19,7 +20,10 @@ constexpr std::size_t kBricksAtOnce = 64;
 constexpr int kLargestReach = 2;
 constexpr int kWidth = 2 * kLargestReach + 1;
 constexpr std::size_t kValues = 20;
-constexpr float kCancelled = 1e-3f;  // of the weight: directions that leave less have cancelled
+// Products of three weights and of the least area stay in the range of floats, so that every voxel can be divided by.
+constexpr double kLeastWeight = 1e-7;
+constexpr float kLeastArea = 1e-12f;  // of the largest: all that is left out is a millionth of a millionth a point
+constexpr float kCancelled = 1e-3f;   // of the weight: directions that leave less have cancelled
 
 /// Where a point goes along one axis: voxels first .. first + count - 1 (before repetition), weights that sum to 1.
 struct Stretch {
@@ -38,15 +42,16 @@ Stretch stretch(double at, int size, double sigma, int reach, bool bound) {
   const double c = std::exp(-0.5 / (sigma * sigma)), q = std::exp(d / (sigma * sigma));
   const std::array<double, kWidth> all{c * c * c * c / (q * q), c / q, 1.0, c * q, c * c * c * c * q * q};
   const auto middle = static_cast<std::int32_t>(cell);
-  Stretch result;
-  result.first = bound ? std::max(middle - reach, 0) : middle - reach;
-  const std::int32_t last = bound ? std::min(middle + reach, size - 1) : middle + reach;
-  result.count = last - result.first + 1;
+  const auto weight = [&](std::int32_t i) { return all[static_cast<std::size_t>(i - middle + kLargestReach)]; };
+  std::int32_t first = bound ? std::max(middle - reach, 0) : middle - reach;
+  std::int32_t last = bound ? std::min(middle + reach, size - 1) : middle + reach;
+  while (weight(first) < kLeastWeight) ++first;  // that of the middle is 1
+  while (weight(last) < kLeastWeight) --last;
   double sum = 0.0;
-  for (std::int32_t i = result.first; i <= last; ++i) sum += all[static_cast<std::size_t>(i - middle + kLargestReach)];
-  for (std::int32_t i = result.first; i <= last; ++i) {
-    result.weights[static_cast<std::size_t>(i - result.first)] =
-        static_cast<float>(all[static_cast<std::size_t>(i - middle + kLargestReach)] / sum);
+  for (std::int32_t i = first; i <= last; ++i) sum += weight(i);
+  Stretch result{first, last - first + 1, {}};
+  for (std::int32_t i = first; i <= last; ++i) {
+    result.weights[static_cast<std::size_t>(i - first)] = static_cast<float>(weight(i) / sum);
   }
   return result;
 }
@@ -80,7 +85,7 @@ template <typename Visit>
 void forBricks(const Splat& splat, const TexelGrid& grid, const Visit& visit) {
   const Touched x = touched(splat.axes[0], grid.columns), y = touched(splat.axes[1], grid.columns);
   const Touched z = touched(splat.axes[2], grid.layers);
-  const int row = grid.columns / kBrick;
+  const int row = grid.brickRow();
   for (int k = 0; k < z.count; ++k) {
     for (int j = 0; j < y.count; ++j) {
       for (int i = 0; i < x.count; ++i) {
@@ -99,10 +104,12 @@ struct Buckets {
   std::vector<std::uint32_t> points;
 };
 
-Buckets bucket(std::span<const Splat> splats, const TexelGrid& grid) {
-  const int row = grid.columns / kBrick;
-  std::vector<std::uint32_t> next(static_cast<std::size_t>(row) * row * (grid.layers / kBrick), 0);
-  for (const Splat& splat : splats) forBricks(splat, grid, [&](std::size_t brick) { ++next[brick]; });
+/// Points of less than `leastArea` are left out.
+Buckets bucket(std::span<const Splat> splats, std::span<const float> areas, float leastArea, const TexelGrid& grid) {
+  std::vector<std::uint32_t> next(grid.brickCount(), 0);
+  for (std::size_t i = 0; i < splats.size(); ++i) {
+    if (areas[i] >= leastArea) forBricks(splats[i], grid, [&](std::size_t brick) { ++next[brick]; });
+  }
   Buckets buckets;
   std::uint32_t sum = 0;
   for (std::size_t brick = 0; brick < next.size(); ++brick) {
@@ -116,6 +123,7 @@ Buckets bucket(std::span<const Splat> splats, const TexelGrid& grid) {
   buckets.first.push_back(sum);
   buckets.points.resize(sum);
   for (std::uint32_t i = 0; i < splats.size(); ++i) {
+    if (areas[i] < leastArea) continue;
     forBricks(splats[i], grid, [&](std::size_t brick) { buckets.points[next[brick]++] = i; });
   }
   return buckets;
@@ -123,9 +131,9 @@ Buckets bucket(std::span<const Splat> splats, const TexelGrid& grid) {
 
 using Values = std::array<float, kValues>;
 
-/// What a point adds to a voxel, for a weight of 1: area, area times attributes, area times n n^T.
-Values valuesOf(const Points& points, std::size_t i) {
-  const float area = points.areaM2[i];
+/// What a point adds to a voxel, for a weight of 1: area (in `unit`), area times attributes, area times n n^T.
+Values valuesOf(const Points& points, std::size_t i, float unit) {
+  const float area = points.areaM2[i] / unit;
   const glm::vec3 n = points.normals[i], t = area * points.tangents[i], an = area * n;
   const glm::vec3 d = area * points.diffuse[i], m = area * points.transmitted[i];
   return {area,       an.x,       an.y,       an.z,       t.x,        t.y,       t.z,
@@ -140,7 +148,7 @@ glm::vec3 direction(const glm::vec3& sum, float weight) {
 
 Voxel voxelOf(const Values& v, float perVolume) {
   Voxel voxel;
-  voxel.density = v[0] * perVolume;
+  voxel.density = std::max(v[0] * perVolume, std::numeric_limits<float>::min());
   voxel.normal = direction({v[1], v[2], v[3]}, v[0]);
   voxel.tangent = direction({v[4], v[5], v[6]}, v[0]);
   voxel.diffuse = glm::vec3(v[7], v[8], v[9]) / v[0];
@@ -207,26 +215,28 @@ void addTo(BrickSums& sums, const Splat& splat, const Within& within, const Valu
   }
 }
 
-/// Writes the voxels of the mask in their order and empties the sums.
-void emit(BrickSums& sums, const Mask& mask, const glm::ivec3& origin, float perVolume, Texel::Entry* entry) {
-  for (int z = 0; z < kBrick; ++z) {
-    for (std::uint64_t left = mask[static_cast<std::size_t>(z)]; left != 0; left &= left - 1, ++entry) {
-      const int bit = std::countr_zero(left);
-      Values& sum = sums[static_cast<std::size_t>(z * kBrick * kBrick + bit)];
-      entry->at = origin + glm::ivec3(bit % kBrick, bit / kBrick, z);
-      // Weights of far voxels may underflow; what is left of them could not be divided by.
-      if (sum[0] > 1e-30f) entry->voxel = voxelOf(sum, perVolume);
+/// Sets the voxels of the mask in their order and empties the sums.
+void emit(BrickSums& sums, const Mask& mask, float perVolume, std::span<Voxel> voxels) {
+  std::size_t next = 0;
+  for (std::size_t z = 0; z < kBrick; ++z) {
+    for (std::uint64_t left = mask[z]; left != 0; left &= left - 1) {
+      Values& sum = sums[z * kBrick * kBrick + static_cast<std::size_t>(std::countr_zero(left))];
+      voxels[next++] = voxelOf(sum, perVolume);
       sum.fill(0.0f);
     }
   }
 }
 
-Result<void> check(const Points& points) {
+bool finite(const glm::vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+Result<void> check(const Points& points, float perVolume) {
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const glm::vec3& p = points.positions[i];
-    const bool finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-    if (finite && points.areaM2[i] >= 0.0f && std::isfinite(points.areaM2[i])) continue;
-    return Error::badInput("point " + std::to_string(i) + " has a place or a leaf area that is not a number", "points",
+    const bool sound = finite(points.positions[i]) && finite(points.normals[i]) && finite(points.tangents[i]) &&
+                       finite(points.diffuse[i]) && finite(points.transmitted[i]) && std::isfinite(points.specular[i]);
+    if (sound && points.areaM2[i] >= 0.0f && std::isfinite(points.areaM2[i] * perVolume)) continue;
+    return Error::badInput("point " + std::to_string(i) + " has a value that is no number, or no leaf area", "points",
                            "Check what the points were made from.");
   }
   return {};
@@ -235,8 +245,9 @@ Result<void> check(const Points& points) {
 }  // namespace
 
 Result<Texel> pointsToTexel(const Points& points, const TexelGrid& grid, double sigmaVoxels, const JobContext& job) {
-  SWARD_ASSIGN(const Texel none, Texel::fromEntries(grid, {}));  // the grid is sound
-  SWARD_TRY(check(points));
+  SWARD_TRY(checkGrid(grid));
+  const auto perVolume = static_cast<float>(1.0 / grid.voxelVolumeM3());
+  SWARD_TRY(check(points, perVolume));
   const double sigma = sigmaVoxels > 0.1 ? std::min(sigmaVoxels, 100.0) : 0.1;
   const int reach = sigma > 0.7 ? 2 : 1;
   std::vector<Splat> splats(points.size());
@@ -244,15 +255,17 @@ Result<Texel> pointsToTexel(const Points& points, const TexelGrid& grid, double 
     for (std::size_t i = begin; i < end; ++i) splats[i] = splatOf(points.positions[i], grid, sigma, reach);
   });
   if (job.cancelled()) return Error::cancelled();
-  const Buckets buckets = bucket(splats, grid);
-  const int row = grid.columns / kBrick;
+  float unit = 0.0f;
+  for (const float area : points.areaM2) unit = std::max(unit, area);
+  const float least = unit > 0.0f ? std::max(kLeastArea * unit, std::numeric_limits<float>::min()) : 1.0f;
+  const Buckets buckets = bucket(splats, points.areaM2, least, grid);
   const auto originOf = [&](std::size_t b) {
     const auto brick = static_cast<int>(buckets.bricks[b]);
+    const int row = grid.brickRow();
     return kBrick * glm::ivec3(brick % row, brick / row % row, brick / row / row);
   };
-  const std::size_t bricks = buckets.bricks.size();
-  std::vector<Mask> masks(bricks, Mask{});
-  base::parallelFor(job, bricks, kBricksAtOnce, [&](std::size_t begin, std::size_t end) {
+  std::vector<Mask> masks(buckets.bricks.size(), Mask{});
+  base::parallelFor(job, masks.size(), kBricksAtOnce, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       for (std::uint32_t k = buckets.first[b]; k < buckets.first[b + 1]; ++k) {
         const Splat& splat = splats[buckets.points[k]];
@@ -260,26 +273,19 @@ Result<Texel> pointsToTexel(const Points& points, const TexelGrid& grid, double 
       }
     }
   });
-  std::vector<std::size_t> first(bricks + 1, 0);
-  for (std::size_t b = 0; b < bricks; ++b) {
-    first[b + 1] = first[b];
-    for (const std::uint64_t layer : masks[b]) first[b + 1] += static_cast<std::size_t>(std::popcount(layer));
-  }
-  std::vector<Texel::Entry> entries(first.back());
-  const auto perVolume = static_cast<float>(1.0 / grid.voxelVolumeM3());
-  base::parallelFor(job, bricks, kBricksAtOnce, [&](std::size_t begin, std::size_t end) {
-    const auto sums = std::make_unique<BrickSums>();
-    for (std::size_t b = begin; b < end; ++b) {
-      const glm::ivec3 origin = originOf(b);
-      for (std::uint32_t k = buckets.first[b]; k < buckets.first[b + 1]; ++k) {
-        const std::uint32_t i = buckets.points[k];
-        addTo(*sums, splats[i], withinBrick(splats[i], origin, grid), valuesOf(points, i));
-      }
-      emit(*sums, masks[b], origin, perVolume, entries.data() + first[b]);
-    }
-  });
   if (job.cancelled()) return Error::cancelled();
-  return Texel::fromEntries(grid, std::move(entries));
+  const auto fill = [&](std::size_t b, std::span<Voxel> voxels) {
+    static thread_local const std::unique_ptr<BrickSums> sums = std::make_unique<BrickSums>();  // 40 kB, kept at 0
+    const glm::ivec3 origin = originOf(b);
+    for (std::uint32_t k = buckets.first[b]; k < buckets.first[b + 1]; ++k) {
+      const std::uint32_t i = buckets.points[k];
+      addTo(*sums, splats[i], withinBrick(splats[i], origin, grid), valuesOf(points, i, unit));
+    }
+    emit(*sums, masks[b], unit * perVolume, voxels);
+  };
+  Texel texel = Texel::fromMasks(grid, buckets.bricks, masks, fill, job);
+  if (job.cancelled()) return Error::cancelled();
+  return texel;
 }
 
 }  // namespace sward::wither

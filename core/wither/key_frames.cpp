@@ -136,10 +136,14 @@ Result<double> lookDifference(const Texel& a, const Texel& b) {
     const View view(a.grid(), axis);
     const std::vector<Look> first = cellsOf(a, view), second = cellsOf(b, view);
     Look sums{};
+    double opacity = 0.0, other = 0.0;
     for (std::size_t i = 0; i < first.size(); ++i) {
       for (std::size_t c = 0; c < 4; ++c) sums[c] += std::abs(first[i][c] - second[i][c]);
+      opacity += first[i][0];
+      other += second[i][0];
     }
-    for (const double sum : sums) largest = std::max(largest, sum / static_cast<double>(first.size()));
+    const double covered = std::max(opacity, other);
+    for (const double sum : sums) largest = std::max(largest, covered > 0.0 ? sum / covered : 0.0);
   }
   return largest;
 }

@@ -10,11 +10,13 @@
 
 namespace sward::wither {
 
-/// How differently two texels of one grid look from afar, 0 to 1: the largest, over the views along x, y and z through
-/// one block, of the mean over the view's cells (8 x 8 columns of voxels) of the absolute difference of opacity, and of
-/// that of opacity times the root of reflectance (about what a display shows) in the channel where it is largest. The
-/// opacity of a column is 1 - exp(-sum of extinctions times length); a cell's is its columns' mean; reflectance is
-/// weighted by extinction along a column and by opacity over a cell. Errors: different grids.
+/// How differently two texels of one grid look from afar, relative to what they cover: the largest, over the views
+/// along x, y and z through one block, of the sum over the view's cells (8 x 8 columns of voxels) of the absolute
+/// difference of opacity, and of that of opacity times the root of reflectance (about what a display shows) in the
+/// channel where it is largest, over the sum of opacity of the one that covers more. 0: alike; 1: one of them is empty;
+/// 2: nowhere at the same place. So a texel of a few blades counts as one of many does. The opacity of a column is 1 -
+/// exp(-sum of extinctions times length); a cell's is its columns' mean; reflectance is weighted by extinction along a
+/// column and by opacity over a cell. Errors: different grids.
 Result<double> lookDifference(const Texel& a, const Texel& b);
 
 struct KeyFrame {

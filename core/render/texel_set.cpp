@@ -1,7 +1,7 @@
 #include "render/texel_set.h"
 
 #include "base/parallel.h"
-#include "wither/texel_march.h"
+#include "wither/extinction.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include "wither/texel_light.h"
 
 #include "base/parallel.h"
-#include "wither/texel_march.h"
+#include "wither/extinction.h"
 
 #include <algorithm>
 #include <array>
@@ -68,7 +68,7 @@ Result<void> marchSky(const Texel& texel, const TexelExtinction& medium, const g
   base::parallelFor(job, voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const double seen = transmitted(texel, medium, centreOf(grid, places[i]), l, lead) * each / l.z;
-      const Facing sides = facing(voxels[i].normal, medium.share(i), l);
+      const Facing sides = facing(voxels[i].normal, normalShare(voxels[i]), l);
       sky.front[i] += static_cast<float>(seen * sides.front);
       sky.back[i] += static_cast<float>(seen * sides.back);
     }
@@ -93,7 +93,8 @@ Result<TexelSky> marchedSky(const Texel& texel, const JobContext& job) {
   TexelSky sky;
   sky.front.assign(texel.size(), 0.0f);
   sky.back.assign(texel.size(), 0.0f);
-  sky.ground.assign(static_cast<std::size_t>(texel.grid().columns) * static_cast<std::size_t>(texel.grid().columns), 0.0f);
+  sky.ground.assign(static_cast<std::size_t>(texel.grid().columns) * static_cast<std::size_t>(texel.grid().columns),
+                    0.0f);
   for (const glm::dvec3& l : skyDirections()) {
     SWARD_ASSIGN(const TexelExtinction medium, TexelExtinction::create(texel, l, job));
     SWARD_TRY(marchSky(texel, medium, l, job, sky));
@@ -151,7 +152,7 @@ Result<LitTexel> lightTexel(const Texel& texel, const TexelSky& sky, const Texel
     for (std::size_t i = begin; i < end; ++i) {
       const Voxel& voxel = voxels[i];
       const double through = sunUp ? transmitted(texel, medium, centreOf(grid, places[i]), light.toSun, lead) : 0.0;
-      const Facing sides = facing(voxel.normal, medium.share(i), light.toSun);
+      const Facing sides = facing(voxel.normal, normalShare(voxel), light.toSun);
       const glm::dvec3 sun = light.sunIrradiance * (through / std::numbers::pi);
       // Irradiance over pi of either side; skyRadiance times the share of the sky that a side sees.
       const glm::dvec3 front = sun * sides.front + light.skyRadiance * double{sky.front[i]};

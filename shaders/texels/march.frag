@@ -62,7 +62,10 @@ void shade(uint index, vec3 d, float lengthM) {
   float root = float(leaf.w & 0xffu) / 255.0;
   float share = float((leaf.w >> 8) & 0xffu) / 255.0;
   float facing = dot(normal, d);
-  float extinction = root * root * u_densityRange * (share * abs(facing) + 0.5 * (1.0 - share));
+  // wither/extinction.h of S = share n n^T + (1 - share) I / 3: a spheroid about the normal.
+  vec2 eigen = (vec2(1.0 - share) + vec2(3.0 * share, 0.0)) / 3.0;
+  vec2 area = eigen * (5.0 + 3.0 * eigen) / 8.0;
+  float extinction = root * root * u_densityRange * sqrt(mix(area.y, area.x, facing * facing));
   float opacity = 1.0 - exp(-extinction * lengthM);
   vec3 colour = colour30(facing <= 0.0 ? leaf.y : leaf.z);
   // Kajiya and Kay: the cone about the tangent on which the sun's light is reflected.

@@ -1,28 +1,32 @@
 #include "export/vdb.h"
 
 #include "base/file.h"
+#include "base/hash.h"
 
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <string>
+#include <string_view>
 
 namespace sward::exporting {
 namespace {
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 30;
 constexpr std::uint64_t kMostVoxels = std::uint64_t{1} << 26;
+constexpr std::size_t kHeaderBytes = 4096;  ///< the metadata of a file stand within so many
 constexpr int kBrick = wither::TexelGrid::kBrick;
 
 using wither::Voxel;
 
-/// What every grid but the density is called, and holds of a voxel.
 openvdb::Vec3s toVdb(const glm::vec3& v) {
   return {v.x, v.y, v.z};
 }
@@ -132,12 +136,34 @@ Result<typename Grid::ConstPtr> pick(const openvdb::GridPtrVec& grids, const cha
   return typename Grid::ConstPtr();
 }
 
-Result<Grids> readGrids(const std::filesystem::path& path) {
-  SWARD_ASSIGN(const std::string bytes, base::readTextFile(path, kMostBytes));
+/// Follows a file's grids, where other readers do not look: OpenVDB writes beyond its memory when it reads some damaged
+/// files, so what was written here is compared with its hash before OpenVDB sees it.
+constexpr std::string_view kSealName = "sward-xxh3:";
+std::string sealOf(std::string_view bytes) {
+  return std::string(kSealName) + base::hashBytes(std::as_bytes(std::span(bytes))).hex();
+}
+
+Result<void> checkBytes(std::string_view bytes, const std::filesystem::path& path) {
   constexpr std::string_view kMagic("\x20\x42\x44\x56\x00\x00\x00\x00", 8);
-  if (!std::string_view(bytes).starts_with(kMagic)) {
+  std::uint32_t version = 0;
+  if (!bytes.starts_with(kMagic) || bytes.size() < kMagic.size() + sizeof(version)) {
     return Error::badInput("this is not an OpenVDB file", path.string(), "Give a file of the type .vdb.");
   }
+  std::memcpy(&version, bytes.data() + kMagic.size(), sizeof(version));
+  if (version > openvdb::OPENVDB_FILE_VERSION) {
+    return damaged(path, "its version " + std::to_string(version) + " is unknown");
+  }
+  const std::size_t sealSize = sealOf({}).size();
+  const std::string_view seal = bytes.substr(bytes.size() - std::min(sealSize, bytes.size()));
+  const bool sealed = seal.starts_with(kSealName);
+  const bool ours = sealed || bytes.substr(0, kHeaderBytes).find("sward_columns") != std::string_view::npos;
+  if (!ours || (sealed && seal == sealOf(bytes.substr(0, bytes.size() - sealSize)))) return {};
+  return damaged(path, "it is not as it was written");
+}
+
+Result<Grids> readGrids(const std::filesystem::path& path) {
+  SWARD_ASSIGN(const std::string bytes, base::readTextFile(path, kMostBytes));
+  SWARD_TRY(checkBytes(bytes, path));
   std::istringstream in(bytes);
   // Without this a file that is cut short reads as zeros.
   in.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
@@ -262,6 +288,7 @@ Result<void> writeVdb(const wither::Texel& texel, const std::filesystem::path& p
   } catch (const std::exception& error) {
     return Error::failed("OpenVDB cannot write the texel: " + std::string(error.what()), path.string());
   }
+  bytes += sealOf(bytes);
   return base::writeFileAtomically(path, bytes, base::Sync::Yes);
 }
 

@@ -87,6 +87,18 @@ TEST_F(Vdb, AFileThatIsCutShortIsAnErrorAtEveryLength) {
   }
 }
 
+TEST_F(Vdb, AFileOfWhichAnyByteIsChangedIsAnError) {
+  ASSERT_TRUE(writeVdb(randomTexel(cube(8), 0.05, 5), file()).ok());
+  auto bytes = base::readFile(file());
+  ASSERT_TRUE(bytes.ok());
+  for (std::size_t at = 0; at < bytes->size(); at += at < 1000 ? 7 : 997) {
+    (*bytes)[at] ^= std::byte{0x55};
+    ASSERT_TRUE(base::writeFileAtomically(file("damaged.vdb"), *bytes).ok());
+    ASSERT_FALSE(readVdb(file("damaged.vdb")).ok()) << at;
+    (*bytes)[at] ^= std::byte{0x55};
+  }
+}
+
 TEST_F(Vdb, ErrorsSayWhatIsWrong) {
   EXPECT_FALSE(readVdb(file("none.vdb")).ok());
   ASSERT_TRUE(base::writeFileAtomically(file("text.vdb"), std::string("hello")).ok());

@@ -12,25 +12,32 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-/// The points that lead, by cells as wide as the threshold: two leaders of a cell are a threshold apart, so that a cell
-/// holds a few at most.
+/// The points that lead, by cells twice as wide as the threshold: what is near lies in eight of them at most, and
+/// leaders are a threshold apart, so that a cell holds few.
 class LeaderGrid {
  public:
-  LeaderGrid(std::size_t points, double cell)
-      : m_mask(std::bit_ceil(2 * points + 1) - 1), m_heads(m_mask + 1, kNone), m_cell(cell) {}
+  LeaderGrid(std::size_t points, double threshold)
+      : m_mask(std::bit_ceil(2 * points + 1) - 1),
+        m_heads(m_mask + 1, kNone),
+        m_threshold(threshold),
+        m_cell(2.0 * threshold) {}
 
   /// Number of the nearest leader within the threshold; kNone.
   std::uint32_t nearest(const glm::dvec3& place) const {
-    const glm::dvec3 centre = glm::floor(place / m_cell);
-    double best = m_cell * m_cell;
+    const glm::dvec3 low = glm::floor((place - m_threshold) / m_cell),
+                     high = glm::floor((place + m_threshold) / m_cell);
+    double best = m_threshold * m_threshold;
     std::uint32_t found = kNone;
-    for (int i = 0; i < 27; ++i) {
-      const glm::dvec3 cell = centre + glm::dvec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    for (int i = 0; i < 8; ++i) {
+      const glm::bvec3 upper((i & 1) != 0, (i & 2) != 0, (i & 4) != 0);
+      if (glm::any(glm::bvec3(upper.x && low.x == high.x, upper.y && low.y == high.y, upper.z && low.z == high.z))) {
+        continue;
+      }
+      const glm::dvec3 cell = glm::mix(low, high, upper);
       for (std::uint32_t l = m_heads[slot(cell)]; l != kNone; l = m_next[l]) {
         const glm::dvec3 away = m_places[l] - place;
         const double distance = glm::dot(away, away);
-        // The cell is compared too: a slot may hold several, and would be looked at twice.
-        if (m_cells[l] != cell || distance >= best) continue;
+        if (distance >= best) continue;
         best = distance;
         found = l;
       }
@@ -44,7 +51,6 @@ class LeaderGrid {
     m_next.push_back(head);
     head = static_cast<std::uint32_t>(m_places.size());
     m_places.push_back(place);
-    m_cells.push_back(cell);
   }
 
  private:
@@ -56,8 +62,8 @@ class LeaderGrid {
   }
   std::size_t m_mask;
   std::vector<std::uint32_t> m_heads, m_next;
-  std::vector<glm::dvec3> m_places, m_cells;
-  double m_cell;
+  std::vector<glm::dvec3> m_places;
+  double m_threshold, m_cell;
 };
 
 struct Sum {

@@ -111,7 +111,8 @@ TEST(PointsToTexel, MeansAreWeightedByArea) {
   other.diffuse[0] = {0.5f, 0.6f, 0.7f};
   other.tangents[0] = {1.0f, 0.0f, 0.0f};
   add(points, other);
-  for (const Voxel& voxel : splat(points).voxels()) {
+  const Texel texel = splat(points);
+  for (const Voxel& voxel : texel.voxels()) {
     EXPECT_LT(glm::length(voxel.diffuse - glm::vec3(0.4f, 0.5f, 0.6f)), 1e-6f);
     EXPECT_LT(glm::length(voxel.tangent - glm::normalize(glm::vec3(3.0f, 0.0f, 1.0f))), 1e-6f);
   }
@@ -121,7 +122,8 @@ TEST(PointsToTexel, OppositeNormalsCancelAndStillSpread) {
   Points points = pointAt({0.5f, 0.5f, 0.25f}, 1.0f);
   add(points, points);
   points.normals[1] = -points.normals[0];
-  for (const Voxel& voxel : splat(points).voxels()) {
+  const Texel texel = splat(points);
+  for (const Voxel& voxel : texel.voxels()) {
     EXPECT_EQ(voxel.normal, glm::vec3(0.0f));
     EXPECT_NEAR(voxel.spread[3], voxel.density, 1e-5f * voxel.density);
     EXPECT_NEAR(glm::length(voxel.tangent), 1.0f, 1e-6f);
@@ -152,6 +154,10 @@ TEST(PointsToTexel, Refuses) {
   }
   EXPECT_FALSE(pointsToTexel(pointAt({0, 0, 0}, nan), kGrid, 0.6, {}).ok());
   EXPECT_FALSE(pointsToTexel(pointAt({0, 0, 0}, -1.0f), kGrid, 0.6, {}).ok());
+  EXPECT_FALSE(pointsToTexel(pointAt({0, 0, 0}, 1e38f), kGrid, 0.6, {}).ok());  // its density would be infinite
+  Points odd = pointAt({0, 0, 0});
+  odd.diffuse[0].g = nan;
+  EXPECT_FALSE(pointsToTexel(odd, kGrid, 0.6, {}).ok());
   EXPECT_FALSE(pointsToTexel(Points{}, {31, 32, 1.0, 1.0}, 0.6, {}).ok());
   std::stop_source source;
   source.request_stop();

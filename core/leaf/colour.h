@@ -7,7 +7,7 @@
 namespace sward::leaf {
 
 /// CIE XYZ under D65 of a surface of this reflectance or transmittance, over [400, 750] nm. Scaled so that 1 everywhere
-/// gives image::kWhiteXyz, each of X, Y and Z apart, within 1e-12: the rest of vision (below 0.7 % of Z, 0.1 % of X
+/// gives image::kWhiteXyz, each of X, Y and Z apart, within 1e-12: the rest of vision (0.3 % of Z, below 0.1 % of X
 /// and Y) and what the compact forms of observer and light miss then cost no neutral grey its hue.
 glm::dvec3 xyzFromSpectrum(const Spectrum& spectrum);
 

@@ -46,14 +46,21 @@ double greatestDistance(const Spectrum& a, const Spectrum& b) {
   return greatest;
 }
 
-// Logarithms keep contents above 0 and give the simplex steps of like size; the ends are those of checkContents.
+// Logarithms keep contents above 0 and give the simplex steps of like size; the upper ends are those of checkContents.
+// What is far below all effect is none: the simplex walks on towards it without end.
+double content(double logarithm, double most) {
+  constexpr double kNone = 1e-5;
+  const double value = std::exp(logarithm);
+  return value < kNone ? 0.0 : std::min(value, most);
+}
+
 LeafContents contentsOf(const std::vector<double>& logs) {
   LeafContents c;
-  c.structure = std::min(1.0 + std::exp(logs[0]), 100.0);
-  c.chlorophyll = std::min(std::exp(logs[1]), 1000.0);
-  c.carotenoid = std::min(std::exp(logs[2]), 1000.0);
-  c.brown = std::min(std::exp(logs[3]), 100.0);
-  c.dryMatter = std::min(std::exp(logs[4]), 1.0);
+  c.structure = 1.0 + content(logs[0], 3.0);
+  c.chlorophyll = content(logs[1], 1000.0);
+  c.carotenoid = content(logs[2], 1000.0);
+  c.brown = content(logs[3], 100.0);
+  c.dryMatter = content(logs[4], 1.0);
   c.waterCm = 0.0;
   return c;
 }

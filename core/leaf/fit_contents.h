@@ -8,9 +8,10 @@ namespace sward::leaf {
 
 /// What a leaf contains, from its measured reflectance with surface light, as an integrating sphere sees it: least
 /// squares, weighted by what the eye sees of a wavelength, of structure, chlorophyll, carotenoids, brown pigments and
-/// dry matter, with PROSPECT-D. Water absorbs too little of what is visible to be found, and is 0. The transmittance,
-/// where it was measured, counts as much; nullptr: it was not, and structure and contents are then known only in
-/// proportion where a leaf is opaque. Some 3000 evaluations, about 30 ms.
+/// dry matter, with PROSPECT-D. Structure is kept in the 1 to 4 that leaves were found to have (Jacquemoud and Baret
+/// 1990). Water absorbs too little of what is visible to be found, and is 0. The transmittance, where it was measured,
+/// counts as much; nullptr: it was not, and structure and contents are then known only in proportion where a leaf is
+/// opaque. Some 3000 evaluations, about 40 ms.
 struct FittedContents {
   LeafContents contents;
   LeafSpectra spectra;  ///< of these contents

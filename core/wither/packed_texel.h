@@ -16,13 +16,11 @@ namespace sward::wither {
 /// exactly. Errors of what it gives back, from half a step of each code:
 /// - density: relative, ln(largest / least) / 131068 (the texel's own; under 0.14 % for any floats), 16 bits of its
 ///   logarithm;
-/// - normal: under 0.0011 rad, octahedral in 2 x 12 bits; tangent: under 0.017 rad, in 2 x 8 bits: sqrt(18) times half
-/// a
-///   step of both coordinates, where the octahedral map is steepest; zero stays zero;
+/// - normal: under 0.0011 rad, octahedral in 2 x 12 bits; tangent: under 0.017 rad, in 2 x 8 bits: half a step of both
+///   coordinates, times sqrt(18) where the octahedral map is steepest; zero stays zero;
 /// - diffuse, transmitted: 1/510 in their square roots; specular: 1/510; values beyond [0, 1] are clamped;
 /// - spread: its largest diagonal entry 3/510 of the density, the others 1/508; its trace 1/510, and equal to the
-/// density
-///   where it was. 8 bits of each entry over the density.
+///   density where it was. 8 bits of each entry over the density.
 class PackedTexel {
  public:
   PackedTexel() = default;

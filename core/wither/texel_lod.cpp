@@ -81,16 +81,37 @@ void scaleTo(const std::array<double, 6>& spread, const glm::dvec3& sigma, Voxel
   voxel.density = std::max(voxel.spread[0] + voxel.spread[3] + voxel.spread[5], std::numeric_limits<float>::min());
 }
 
+/// S of a voxel with the leaves without a normal in it.
+std::array<double, 6> wholeSpread(const Voxel& voxel) {
+  std::array<double, 6> spread{};
+  for (std::size_t i = 0; i < 6; ++i) spread[i] = static_cast<double>(voxel.spread[i]);
+  const double around = std::max(static_cast<double>(voxel.density) - (spread[0] + spread[3] + spread[5]), 0.0) / 3.0;
+  for (const std::size_t i : {0u, 3u, 5u}) spread[i] += around;
+  return spread;
+}
+
+/// A voxel whose leaves stand side by side.
+Voxel hiding(const Voxel& voxel, const glm::dvec3& size) {
+  constexpr double kMost = 0.99;  // of what is seen along an axis: no voxel is wholly opaque
+  glm::dvec3 sigma(0.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::dvec3 l(0.0);
+    l[axis] = 1.0;
+    const double depth = extinction(voxel, l) * size[axis];
+    sigma[axis] = std::max(-std::log1p(-std::min(depth, kMost)), depth) / size[axis];
+  }
+  Voxel out = voxel;
+  scaleTo(wholeSpread(voxel), sigma, out);
+  return out;
+}
+
 Voxel merged(const Children& children, const glm::dvec3& voxelM) {
   LeafSums sums;
   for (const Voxel* voxel : children) {
     if (voxel == nullptr) continue;
     sums.add(*voxel, static_cast<double>(voxel->density));
-    double trace = 0.0;
-    for (const std::size_t i : {0u, 3u, 5u}) trace += static_cast<double>(voxel->spread[i]);
-    const double around = std::max(static_cast<double>(voxel->density) - trace, 0.0) / 3.0;
-    for (std::size_t i = 0; i < 6; ++i) sums.spread[i] += static_cast<double>(voxel->spread[i]) / 8.0;
-    for (const std::size_t i : {0u, 3u, 5u}) sums.spread[i] += around / 8.0;
+    const std::array<double, 6> spread = wholeSpread(*voxel);
+    for (std::size_t i = 0; i < 6; ++i) sums.spread[i] += spread[i] / 8.0;
   }
   Voxel voxel = sums.means();
   scaleTo(sums.spread,
@@ -144,6 +165,27 @@ class Halving {
 };
 
 }  // namespace
+
+Result<Texel> opaque(const Texel& texel, const JobContext& job) {
+  const auto bricks = texel.bricks();
+  std::vector<std::uint32_t> filled;
+  std::vector<std::array<std::uint64_t, 8>> masks;
+  for (std::size_t i = 0; i < bricks.size(); ++i) {
+    if (bricks[i] < 0) continue;
+    filled.push_back(static_cast<std::uint32_t>(i));
+    masks.push_back(texel.stored()[static_cast<std::size_t>(bricks[i])].mask);
+  }
+  const glm::dvec3 size = texel.grid().voxelM();
+  Texel out = Texel::fromMasks(
+      texel.grid(), filled, masks,
+      [&](std::size_t i, std::span<Voxel> voxels) {
+        const Voxel* from = texel.voxels().data() + texel.stored()[i].first;
+        for (Voxel& voxel : voxels) voxel = hiding(*from++, size);
+      },
+      job);
+  if (job.cancelled()) return Error::cancelled();
+  return out;
+}
 
 Result<Texel> halved(const Texel& texel, const JobContext& job) {
   TexelGrid grid = texel.grid();

@@ -111,6 +111,7 @@ TEST(Layout, HeavyLibrariesStayInTheirFolders) {
       {"tiny_gltf.h", {"mesh"}},
       {"OpenImageIO/", {"image"}},
       {"Eigen/", {"trace", "lpt", "report"}},
+      {"openvdb/", {"export"}},
   };
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(SWARD_SOURCE_DIR) / "core")) {
     if (!isSource(entry.path())) continue;

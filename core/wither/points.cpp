@@ -115,6 +115,7 @@ void Points::resize(std::size_t count) {
   positions.resize(count);
   normals.resize(count);
   tangents.resize(count);
+  spread.resize(count);
   diffuse.resize(count);
   transmitted.resize(count);
   specular.resize(count);
@@ -153,6 +154,7 @@ Result<Points> texelToPoints(const Texel& texel, std::span<const Attachment> att
                                                        static_cast<double>(hung.s), position, texel.grid().sideM);
         points.normals[p] = voxel.normal;
         points.tangents[p] = voxel.tangent;
+        for (std::size_t c = 0; c < 6; ++c) points.spread[p][c] = voxel.spread[c] / voxel.density;
         points.diffuse[p] = voxel.diffuse;
         points.transmitted[p] = voxel.transmitted;
         points.specular[p] = voxel.specular;

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <functional>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace sward::report {
@@ -40,56 +41,80 @@ std::uint64_t bytesOf(const wither::Texel& texel) {
   return texel.size() * (sizeof(wither::Voxel) + sizeof(glm::u16vec3));
 }
 
-/// What a step read and wrote, and how fast a copy of half of that many bytes is.
+/// What a step took, read and wrote.
 struct Timed {
-  TimeMs time, copy;
+  TimeMs time;
   std::uint64_t bytesMoved = 0;
 };
 
-/// `body` in turn with a copy that reads and writes `moved` bytes in all.
-Timed timed(int runs, std::uint64_t moved, const std::function<void()>& body) {
+/// A copy on one thread that reads and writes `moved` bytes in all.
+TimeMs copyTime(int runs, std::uint64_t moved) {
   const std::vector<char> from(moved / 2 + 1, 1);
   std::vector<char> to(from.size());
-  Timed result;
-  result.bytesMoved = moved;
-  std::tie(result.time, result.copy) = timePairs(runs, body, [&] {
+  return timeRuns(runs, [&] {
     std::memcpy(to.data(), from.data(), from.size());
     *static_cast<volatile char*>(to.data()) = to.back();  // so that the copy is not optimised away
   });
-  return result;
 }
 
-/// The three steps at one number of blades and proportion.
+/// Blades at one proportion, ready for each of the steps.
+struct Prepared {
+  const WitherBench* bench = nullptr;
+  double proportion = 0.0;
+  wither::Points points, moved;
+  wither::Texel texel;
+  JobContext job;
+
+  static Result<Prepared> create(const WitherBench& bench, double proportion, const JobContext& job) {
+    Prepared p;
+    p.bench = &bench;
+    p.proportion = proportion;
+    p.job = job;
+    SWARD_ASSIGN(p.points, bench.points(proportion, kSeed, job));
+    SWARD_TRY(p.pose());
+    SWARD_ASSIGN(p.texel, p.splat());
+    return p;
+  }
+  Result<void> pose() {
+    return wither::pose(points, bench->strands().strands, bench->season(), {}, kWeathering, bench->colour(), moved,
+                        job);
+  }
+  Result<wither::Texel> splat() const {
+    return wither::pointsToTexel(moved, bench->grid(), wither::TexelOptions{}.splatVoxels, job);
+  }
+};
+
+/// The steps of some blades.
 struct Measured {
   int blades = 0;
   double proportion = 0.0;
   std::size_t points = 0, restVoxels = 0, voxels = 0;
   Timed toPoints, step, toTexel;
+
+  explicit Measured(const Prepared& p)
+      : blades(p.bench->blades()),
+        proportion(p.proportion),
+        points(p.points.size()),
+        restVoxels(p.bench->rest().texel.size()),
+        voxels(p.texel.size()) {
+    toPoints.bytesMoved = bytesOf(p.bench->rest().texel) + bytesOf(p.points);
+    step.bytesMoved = 2 * bytesOf(p.points);
+    toTexel.bytesMoved = bytesOf(p.moved) + bytesOf(p.texel);
+  }
 };
 
-Result<Measured> measure(const WitherBench& bench, double proportion, int runs, const JobContext& job) {
-  Measured m;
-  m.blades = bench.blades();
-  m.proportion = proportion;
-  SWARD_ASSIGN(wither::Points points, bench.points(proportion, kSeed, job));
-  wither::Points moved;
-  const auto pose = [&] {
-    return wither::pose(points, bench.strands().strands, bench.season(), {}, kWeathering, bench.colour(), moved, job);
-  };
-  SWARD_TRY(pose());
-  const auto splat = [&] {
-    return wither::pointsToTexel(moved, bench.grid(), wither::TexelOptions{}.splatVoxels, job);
-  };
-  SWARD_ASSIGN(const wither::Texel texel, splat());
-  m.points = points.size();
-  m.restVoxels = bench.rest().texel.size();
-  m.voxels = texel.size();
+/// All blades and half of them in turn, so that the machine's moods and its memory's state hit both alike.
+Result<std::pair<Measured, Measured>> measure(Prepared all, Prepared half, int runs) {
+  std::pair<Measured, Measured> m{Measured(all), Measured(half)};
   bool ok = true;
-  m.toPoints = timed(runs, bytesOf(bench.rest().texel) + bytesOf(points),
-                     [&] { ok = bench.points(proportion, kSeed, job).ok() && ok; });
-  m.step = timed(runs, 2 * bytesOf(points), [&] { ok = pose().ok() && ok; });
-  m.toTexel = timed(runs, bytesOf(moved) + bytesOf(texel), [&] { ok = splat().ok() && ok; });
-  if (!ok || job.cancelled()) return Error::cancelled();
+  const auto both = [&](Timed Measured::*part, const std::function<bool(Prepared&)>& body) {
+    std::tie((m.first.*part).time, (m.second.*part).time) = timePairs(
+        runs, [&] { ok = body(all) && ok; }, [&] { ok = body(half) && ok; });
+  };
+  both(&Measured::toPoints, [](Prepared& p) { return p.bench->points(p.proportion, kSeed, p.job).ok(); });
+  both(&Measured::step, [](Prepared& p) { return p.pose().ok(); });
+  both(&Measured::toTexel, [](Prepared& p) { return p.splat().ok(); });
+  if (!ok || all.job.cancelled()) return Error::cancelled();
   return m;
 }
 
@@ -109,24 +134,26 @@ Row rowOf(const Step& step, const Measured& m, const Timed& timed, int resolutio
   return row;
 }
 
-/// All blades at both proportions, then half of them.
-void addRows(const Step& step, Timed Measured::*part, const std::vector<Measured>& all,
-             const std::vector<Measured>& half, int resolution, std::vector<Row>& rows) {
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const Timed& timed = all[i].*part;
-    Row row = rowOf(step, all[i], timed, resolution);
+/// All blades at each proportion, and half of them.
+void addRows(const Step& step, Timed Measured::*part, const std::vector<std::pair<Measured, Measured>>& measured,
+             const WitherSpeedSize& size, std::vector<Row>& rows) {
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    const Timed &all = measured[i].first.*part, &half = measured[i].second.*part;
+    Row row = rowOf(step, measured[i].first, all, size.resolution);
     if (i == 0) {
-      row.ratio = step.limitMs / timed.time.median;
+      row.ratio = step.limitMs / all.time.median;
       row.against = "limit of " + numberText(step.limitMs) + " ms, over the time";
-      row.numbersAndNames["over_paper"] = numberText(step.paperMs / timed.time.median);
+      row.numbersAndNames["over_paper"] = numberText(step.paperMs / all.time.median);
     } else {
-      row.ratio = timed.copy.median / timed.time.median;
+      row.ratio = copyTime(size.runs, all.bytesMoved).median / all.time.median;
       row.against = "a copy of the bytes that are read and written, over the time";
     }
     rows.push_back(std::move(row));
-    Row fewer = rowOf(step, half[i], half[i].*part, resolution);
-    fewer.ratio = timed.time.median / (half[i].*part).time.median;
-    fewer.against = "all blades, over the time of half of them: 2 is proportional";
+    Row fewer = rowOf(step, measured[i].second, half, size.resolution);
+    fewer.ratio = all.time.median / half.time.median;
+    fewer.against = "all blades, over the time of half of them: the ratio of points is proportional";
+    fewer.numbersAndNames["ratio_of_points"] =
+        numberText(static_cast<double>(measured[i].first.points) / static_cast<double>(measured[i].second.points));
     rows.push_back(std::move(fewer));
   }
 }
@@ -171,8 +198,8 @@ Result<Row> mingleRow(const WitherSpeedSize& size, const JobContext& job) {
   for (const wither::Texel& texel : texels) inputs.push_back({&texel, 1.0});
   SWARD_ASSIGN(const wither::Texel mixed, wither::mingle(inputs, job));
   bool ok = true;
-  const Timed time = timed(size.runs, voxels * sizeof(wither::Voxel) + bytesOf(mixed),
-                           [&] { ok = wither::mingle(inputs, job).ok() && ok; });
+  const std::uint64_t moved = voxels * sizeof(wither::Voxel) + bytesOf(mixed);
+  const TimeMs time = timeRuns(size.runs, [&] { ok = wither::mingle(inputs, job).ok() && ok; });
   if (!ok || job.cancelled()) return Error::cancelled();
   Row row;
   row.method = "mingle_" + std::to_string(size.samples);
@@ -181,10 +208,10 @@ Result<Row> mingleRow(const WitherSpeedSize& size, const JobContext& job) {
                          {"voxels", std::to_string(mixed.size())},
                          {"resolution", std::to_string(size.resolution)},
                          {"samples", std::to_string(size.samples)},
-                         {"bytes_moved", std::to_string(time.bytesMoved)},
-                         {"over_copy", numberText(time.copy.median / time.time.median)}};
-  row.timeMs = time.time;
-  row.ratio = kMingleLimitMs / time.time.median;
+                         {"bytes_moved", std::to_string(moved)},
+                         {"over_copy", numberText(copyTime(size.runs, moved).median / time.median)}};
+  row.timeMs = time;
+  row.ratio = kMingleLimitMs / time.median;
   row.against = "limit of 150 ms, over the time";
   row.notes = "over_copy: a copy of the bytes that are read and written, over the time";
   return row;
@@ -196,17 +223,17 @@ Result<std::vector<Row>> witherSpeedRows(const WitherSpeedSize& size, const JobC
   const JobContext quiet{job.stop, {}, job.threads};
   SWARD_ASSIGN(const WitherBench bench, WitherBench::create(size.blades, size.resolution, kSeed, quiet));
   SWARD_ASSIGN(const WitherBench halfBench, WitherBench::create(size.blades / 2, size.resolution, kSeed, quiet));
-  std::vector<Measured> all, half;
+  std::vector<std::pair<Measured, Measured>> measured;
   for (const double proportion : size.proportions) {
-    SWARD_ASSIGN(Measured whole, measure(bench, proportion, size.runs, quiet));
-    all.push_back(std::move(whole));
-    SWARD_ASSIGN(Measured fewer, measure(halfBench, proportion, size.runs, quiet));
-    half.push_back(std::move(fewer));
+    SWARD_ASSIGN(Prepared all, Prepared::create(bench, proportion, quiet));
+    SWARD_ASSIGN(Prepared half, Prepared::create(halfBench, proportion, quiet));
+    SWARD_ASSIGN(auto pair, measure(std::move(all), std::move(half), size.runs));
+    measured.push_back(std::move(pair));
   }
   std::vector<Row> rows;
-  addRows(kToPoints, &Measured::toPoints, all, half, size.resolution, rows);
-  addRows(kStep, &Measured::step, all, half, size.resolution, rows);
-  addRows(kToTexel, &Measured::toTexel, all, half, size.resolution, rows);
+  addRows(kToPoints, &Measured::toPoints, measured, size, rows);
+  addRows(kStep, &Measured::step, measured, size, rows);
+  addRows(kToTexel, &Measured::toTexel, measured, size, rows);
   for (const double proportion : size.proportions) {
     SWARD_ASSIGN(Row row, keyFrameRow(bench, proportion, size.runs, quiet));
     rows.push_back(std::move(row));

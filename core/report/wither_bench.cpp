@@ -1,6 +1,5 @@
 #include "report/wither_bench.h"
 
-#include "base/parallel.h"
 #include "leaf/ageing.h"
 #include "wither/cones.h"
 #include "wither/extinction.h"
@@ -16,8 +15,56 @@ namespace sward::report {
 namespace {
 
 constexpr int kCell = 8;  ///< columns along a cell
-constexpr int kRays = 4;  ///< along a cell
-constexpr double kDeep = 30.0;
+constexpr int kFine = 4;  ///< rays a column along x, under 45 degrees
+
+/// Optical depths of rays that rise from the ground, one a column: [y][x].
+std::vector<double> depthsAbove(const wither::Texel& texel) {
+  const auto row = static_cast<std::size_t>(texel.grid().columns);
+  std::vector<double> depths(row * row, 0.0);
+  const double length = texel.grid().voxelM().z;
+  for (std::size_t i = 0; i < texel.size(); ++i) {
+    const glm::u16vec3 at = texel.places()[i];
+    depths[at.y * row + at.x] += length * wither::extinction(texel.voxels()[i], {0.0, 0.0, 1.0});
+  }
+  return depths;
+}
+
+/// The same along (1, 0, 1), kFine a column along x: such a ray stays in its row y, and passes a voxel on a chord that
+/// its start says, so that going through the voxels once is enough.
+std::vector<double> depthsTilted(const wither::Texel& texel) {
+  constexpr double kDiagonal = std::numbers::sqrt2;
+  const glm::dvec3 size = texel.grid().voxelM();
+  const int row = texel.grid().columns * kFine;
+  const double step = size.x / kFine;
+  std::vector<double> depths(static_cast<std::size_t>(texel.grid().columns) * static_cast<std::size_t>(row), 0.0);
+  for (std::size_t i = 0; i < texel.size(); ++i) {
+    const glm::u16vec3 at = texel.places()[i];
+    const double sigma = wither::extinction(texel.voxels()[i], glm::dvec3(1.0, 0.0, 1.0) / kDiagonal);
+    const double x = at.x * size.x, z = at.z * size.z;
+    const int first = static_cast<int>(std::floor((x - z - size.z) / step));
+    const int last = static_cast<int>(std::ceil((x + size.x - z) / step));
+    for (int ray = first; ray <= last; ++ray) {
+      const double from = (ray + 0.5) * step;  // x = from + z along the ray
+      const double chord = std::min(z + size.z, x + size.x - from) - std::max(z, x - from);
+      if (!(chord > 0.0)) continue;
+      const int wrapped = (ray % row + row) % row;
+      depths[static_cast<std::size_t>(at.y) * static_cast<std::size_t>(row) + static_cast<std::size_t>(wrapped)] +=
+          kDiagonal * chord * sigma;
+    }
+  }
+  return depths;
+}
+
+/// Mean opacity of cells from the depths of `fine` rays a column along x.
+std::vector<double> cellsOf(const std::vector<double>& depths, int columns, int fine) {
+  const int cells = columns / kCell, row = columns * fine;
+  std::vector<double> opacity(static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells), 0.0);
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    const int x = static_cast<int>(i) % row / (kCell * fine), y = static_cast<int>(i) / row / kCell;
+    opacity[static_cast<std::size_t>(y * cells + x)] -= std::expm1(-depths[i]) / (kCell * kCell * fine);
+  }
+  return opacity;
+}
 
 }  // namespace
 
@@ -88,29 +135,11 @@ double Cover::mean(std::size_t view) const {
   return opacity[view].empty() ? 0.0 : sum / static_cast<double>(opacity[view].size());
 }
 
-Result<Cover> coverOf(const wither::Texel& texel, const JobContext& job) {
-  const std::array<glm::dvec3, Cover::kViews> views{
-      glm::dvec3(0.0, 0.0, 1.0), glm::dvec3(std::numbers::sqrt2 / 2.0, 0.0, std::numbers::sqrt2 / 2.0)};
+Cover coverOf(const wither::Texel& texel) {
   Cover cover;
-  cover.cells = std::max(texel.grid().columns / kCell, 1);
-  const auto cells = static_cast<std::size_t>(cover.cells);
-  const double step = texel.grid().sideM / (cover.cells * kRays);
-  for (std::size_t view = 0; view < views.size(); ++view) {
-    SWARD_ASSIGN(const auto medium, wither::TexelExtinction::create(texel, views[view], job));
-    std::vector<double>& opacity = cover.opacity[view];
-    opacity.assign(cells * cells, 0.0);
-    base::parallelFor(job, cells * cells, 16, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const glm::dvec2 corner(static_cast<double>(i % cells * kRays), static_cast<double>(i / cells * kRays));
-        for (int ray = 0; ray < kRays * kRays; ++ray) {
-          const glm::dvec2 at = step * (corner + glm::dvec2(ray % kRays + 0.5, ray / kRays + 0.5));
-          const double depth = wither::opticalDepth(texel, medium, {at, 0.0}, views[view], kDeep);
-          opacity[i] -= std::expm1(-depth) / (kRays * kRays);
-        }
-      }
-    });
-  }
-  if (job.cancelled()) return Error::cancelled();
+  cover.cells = texel.grid().columns / kCell;
+  cover.opacity[0] = cellsOf(depthsAbove(texel), texel.grid().columns, 1);
+  cover.opacity[1] = cellsOf(depthsTilted(texel), texel.grid().columns, kFine);
   double weights = 0.0;
   for (std::size_t i = 0; i < texel.size(); ++i) {
     const auto weight = static_cast<double>(texel.voxels()[i].density);

@@ -61,8 +61,8 @@ struct Cover {
   double meanHeightM = 0.0;  ///< of the leaf area
   double mean(std::size_t view) const;
 };
-/// Cells of 8 x 8 columns, 16 rays each. Errors: Error::cancelled().
-Result<Cover> coverOf(const wither::Texel& texel, const JobContext& job);
+/// Cells of 8 x 8 columns; a ray a column from above, four along (1, 0, 1). Time follows the voxels.
+Cover coverOf(const wither::Texel& texel);
 
 /// How a cover differs from the true one.
 struct CoverError {

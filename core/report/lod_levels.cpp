@@ -23,8 +23,10 @@ glm::dvec3 startOf(std::size_t i, int side, double sideM, double heightM) {
   const auto cells = static_cast<std::size_t>(side);
   const double x = random.uniform(), y = random.uniform();
   const double step = sideM / side;
+  // Most of the variance is the height's: steps of the golden ratio are even over it, and over neighbouring cells.
+  const double up = static_cast<double>(i) * 0.6180339887498949;
   return {step * (static_cast<double>(i % cells) + x), step * (static_cast<double>(i / cells) + y),
-          heightM * random.uniform()};
+          heightM * (up - std::floor(up))};
 }
 
 /// `range(begin, end, value)` gives the transmittance of rays [begin, end) of one direction.

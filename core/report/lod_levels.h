@@ -21,7 +21,8 @@ struct LetThrough {
   std::vector<double> mean;   ///< one a direction, 0 to 1
   std::vector<double> error;  ///< standard error of the mean, as if rays were independent
 };
-/// `side` x `side` rays a direction, one over each cell of the ground, at random places of it and of the height.
+/// `side` x `side` rays a direction, one over each cell of the ground, at random places of it and at heights evenly
+/// from bottom to top.
 /// Directions: unit, z > 0. Errors: Error::cancelled().
 Result<LetThrough> marchedThrough(const wither::Texel& texel, const std::vector<glm::dvec3>& directions, int side,
                                   const JobContext& job);

@@ -18,7 +18,7 @@ struct TexelLodSize {
   int coarsest = 32;
   std::vector<double> elevationsDeg{90.0, 60.0, 45.0, 30.0, 15.0};
   int azimuths = 3;
-  int marches = 48;  ///< through a texel: along a side of the ground, for every direction
+  int marches = 64;  ///< through a texel: along a side of the ground, for every direction
   int rays = 192;    ///< through the triangles, the same
 };
 

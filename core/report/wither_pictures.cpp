@@ -13,12 +13,12 @@
 namespace sward::report {
 namespace {
 
-constexpr int kWidth = 480;       ///< pixels of a picture
-constexpr double kThicken = 6.0;  ///< of the depth: needles are a thirteenth of a voxel wide
+constexpr int kWidth = 480;        ///< pixels of a picture
+constexpr double kThicken = 20.0;  ///< of the depth: needles are a thirteenth of a voxel wide
 constexpr double kExposure = 2.0;
 constexpr double kProportion = 110.0;  ///< so that blades are lines and not dots
 constexpr std::uint64_t kSeed = 1;
-const glm::dvec3 kBackground(0.80, 0.86, 0.92);
+const glm::dvec3 kBackground(0.020, 0.022, 0.026);  ///< dark, so that straw shows as leaves do
 
 /// Depth, and reflectance times depth, of the columns along y: [z][x].
 std::vector<glm::dvec4> columnsOf(const wither::Texel& texel) {
@@ -73,7 +73,8 @@ Result<void> addWitherPictures(const WitherSize& size, const WitherBench& bench,
     SWARD_ASSIGN(const wither::Texel texel, bench.texel(points, size.weatherings[i], {}, job));
     Picture picture;
     picture.name = "wither_side_" + std::to_string(i);
-    picture.caption = "weathering " + numberText(size.weatherings[i]) + "; opacity is six times what it is";
+    picture.caption = "weathering " + numberText(size.weatherings[i]) + "; optical depth is " + numberText(kThicken) +
+                      " times what it is";
     picture.linear = sideView(texel);
     picture.display = picture.linear;
     for (float& value : picture.display.pixels) value = image::srgbFromLinear(value);

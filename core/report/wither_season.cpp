@@ -95,7 +95,7 @@ void addSeasonSteps(Section& section) {
 }
 
 Result<void> addAutumns(Section& section) {
-  constexpr int kMoments = 100;
+  constexpr int kMoments = 40;
   Plot turn;
   turn.name = "wither_autumn_tip";
   turn.title = "The tip of a blade over the season";

@@ -216,6 +216,8 @@ lpt::FitOptions stackOptionsOf(const project::Project& project, trace::LayerSet 
 namespace {
 
 bool sameWithering(const project::Project& a, const project::Project& b) {
+  if (drawnAsTexels(a) != drawnAsTexels(b)) return false;
+  if (drawnAsTexels(a)) return a.wither == b.wither && a.leaf == b.leaf;
   if (!withers(a) && !withers(b)) return true;
   return a.wither.weathering == b.wither.weathering && a.wither.ageing == b.wither.ageing &&
          a.wither.body == b.wither.body && a.wither.mingle == b.wither.mingle && a.leaf == b.leaf;

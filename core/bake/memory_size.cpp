@@ -48,6 +48,11 @@ std::uint64_t memoryBytes(const scene::Patch& patch) {
 std::uint64_t memoryBytes(const GroundBake& ground) {
   std::uint64_t bytes = memoryBytes(ground.slices) + memoryBytes(ground.soil) + ground.map.tiles.size();
   for (const lpt::LayerStack& blade : ground.blades) bytes += memoryBytes(blade);
+  if (ground.texels) {
+    for (const TexelBake::Level& level : ground.texels->levels) {
+      bytes += level.texel->bytes() + (level.sky.front.size() + level.sky.back.size()) * sizeof(float);
+    }
+  }
   return bytes;
 }
 

@@ -157,6 +157,16 @@ struct Renderer::Impl {
 
   double hazePerM() const { return hazeKm > 0.0 ? 1.0 / (hazeKm * kMetresPerKilometre) : 0.0; }
 
+  Result<void> setTexels(std::shared_ptr<const bake::GroundBake> bake) {
+    SWARD_ASSIGN(TexelSet set, TexelSet::create(bake->texels));
+    SWARD_TRY(context.checkErrors("uploading the texels"));
+    texels = std::move(set);
+    texelsLit = false;
+    ground = std::move(bake);
+    ++revision;
+    return {};
+  }
+
   Result<void> lightTexels() {
     if (texelsLit) return {};
     SWARD_TRY(texels->relight({daylight->sunDirection(), daylight->sunIrradiance(), daylight->meanSkyRadiance()}, {}));
@@ -258,6 +268,8 @@ Result<void> Renderer::setGround(std::shared_ptr<const bake::GroundBake> ground)
   SWARD_TRY(impl.context.makeCurrent());
   if (!ground) return Error::failed("there is no ground", "render");
   impl.relit.reset();
+  impl.texels.reset();
+  if (ground->texels) return impl.setTexels(std::move(ground));
   SWARD_ASSIGN(RelitGround relit, RelitGround::create(*ground));
   impl.macro.reset();
   ++impl.revision;
@@ -265,18 +277,6 @@ Result<void> Renderer::setGround(std::shared_ptr<const bake::GroundBake> ground)
   impl.ground = std::move(ground);
   impl.relit = std::move(relit);
   if (impl.daylight) impl.relit->setIllumination(illuminationOf(*impl.daylight));
-  return {};
-}
-
-Result<void> Renderer::setTexels(std::shared_ptr<const bake::TexelBake> texels) {
-  Impl& impl = *m_impl;
-  SWARD_TRY(impl.context.makeCurrent());
-  impl.texels.reset();
-  SWARD_ASSIGN(TexelSet set, TexelSet::create(std::move(texels)));
-  SWARD_TRY(impl.context.checkErrors("uploading the texels"));
-  impl.texels = std::move(set);
-  impl.texelsLit = false;
-  ++impl.revision;
   return {};
 }
 

@@ -2,7 +2,6 @@
 
 #include "bake/ground_bake.h"
 #include "bake/inspection.h"
-#include "bake/texel_bake.h"
 #include "base/result.h"
 #include "gpu/context.h"
 #include "image/bytes.h"
@@ -61,11 +60,9 @@ class Renderer {
   static Result<std::unique_ptr<Renderer>> create(gpu::Context& context);
   ~Renderer();
 
-  /// Uploads a bake; replaces the one before. An error when the GPU has no room.
+  /// Uploads a bake, layers or texels; replaces the one before. Only GroundMethod::Texels draws texels, and nothing
+  /// else does. An error when the GPU has no room.
   Result<void> setGround(std::shared_ptr<const bake::GroundBake> ground);
-  /// What GroundMethod::Texels draws in place of the ground; replaces the texels before. An error when the GPU has no
-  /// room.
-  Result<void> setTexels(std::shared_ptr<const bake::TexelBake> texels);
   /// What the view modes Visibility and Condition show of the ground; the next setGround() forgets it. Errors: it
   /// belongs to another ground.
   Result<void> setInspection(const bake::Inspection& inspection);

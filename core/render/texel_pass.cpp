@@ -13,6 +13,10 @@ namespace sward::render {
 namespace {
 
 constexpr float kHighlightExponent = 24.0f;
+/// Leaves mirror some 4 % of the light (Fresnel's at the index 1.4). A cone's highlight of this exponent fills about a
+/// seventh of the directions, 4 pi / 7 sr, so that its radiance is 0.04 / (4 pi / 7) of the irradiance; the gloss of
+/// grass, kLeafSpecular, is 0.3 of the whole.
+constexpr float kHighlight = 0.04f / 1.8f / 0.3f;
 constexpr std::size_t kMostLevels = 8;  ///< as in shaders/texels/march.frag
 
 std::vector<std::uint32_t> cornersOf(const Frame& frame) {
@@ -102,6 +106,7 @@ Result<void> TexelPass::draw(ProgramCache& programs, const TexelPassInput& input
   setIfUsed(*program, "u_sunIrradiance", glm::vec3(input.sunIrradiance));
   setIfUsed(*program, "u_sunDisc", glm::vec3(input.sunIrradiance * scene::kSunDiscGain));
   setIfUsed(*program, "u_sharpness", kHighlightExponent);
+  setIfUsed(*program, "u_highlight", kHighlight);
   gpu::gl().DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(m_corners.size()));
   return {};
 }

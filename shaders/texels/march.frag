@@ -20,6 +20,7 @@ uniform float u_shellM;
 uniform float u_densityRange;      // 1/m, of a stored density of 1
 uniform float u_radianceRange;
 uniform float u_sharpness;         // exponent of the highlight
+uniform float u_highlight;         // its radiance over the sun's irradiance at full gloss
 uniform vec3 u_sunIrradiance;
 uniform vec2 u_eyePlace;           // eye in the block, blocks
 uniform float u_bendM;             // as the ground's grid is bent
@@ -74,7 +75,7 @@ void shade(uint index, vec3 d, float lengthM) {
   float cone = across.x * across.y - along.x * along.y;
   float gloss = float((leaf.w >> 16) & 0xffu) / 255.0;
   if (gloss > 0.0 && tangent != vec3(0.0)) {
-    colour += u_sunIrradiance * (gloss * pow(max(cone, 0.0), u_sharpness) / u_radianceRange);
+    colour += u_sunIrradiance * (gloss * u_highlight * pow(max(cone, 0.0), u_sharpness) / u_radianceRange);
   }
   g_sum += g_left * opacity * colour;
   g_left *= 1.0 - opacity;

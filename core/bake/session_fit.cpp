@@ -125,7 +125,14 @@ Result<std::shared_ptr<const lpt::Fit>> Session::fit(LayerSet set) {
 Result<std::shared_ptr<const lpt::Fit>> Session::seamFit() {
   const lpt::FitOptions options = seamOptionsOf(m_project);
   if (m_project.fit == options) return fit(LayerSet::Slices);
-  return fitWith(LayerSet::Slices, options, "seams", m_keys.seamFit);
+  return node<lpt::Fit>("fit", "seams", m_keys.seamFit, keepTraced(), [&](const JobContext& job) -> Result<lpt::Fit> {
+    // The layers' own fit, while what both read is held: light that is kept on the disk alone, or nowhere.
+    SWARD_ASSIGN(const LightSamples held, lightSamples(LayerSet::Slices, true));
+    if (!lpt::needsSun(m_project.fit.basis)) {
+      SWARD_ASSIGN(m_slicesFit, fit(LayerSet::Slices));
+    }
+    return makeFit(LayerSet::Slices, options, job);
+  });
 }
 
 }  // namespace sward::bake

@@ -17,7 +17,7 @@ lpt::CommonResponse commonResponse(int layers) {
     for (int channel = 0; channel < 2; ++channel) {
       for (int function = 0; function < lpt::CommonResponse::kFunctions; ++function) {
         const bool coordinate = function == lpt::CommonResponse::kFunctions - 1;
-        const float size = coordinate ? 1.5f : 0.02f;
+        const float size = coordinate ? 0.6f : 0.02f;
         for (const float feature : {0.4f, 1.0f, -0.7f, 0.3f, 0.5f})
           common.values.push_back(size * (feature - 0.02f * static_cast<float>(layer + function % 3)));
       }

@@ -8,6 +8,7 @@
 #include "scene/options.h"
 #include "tiles/options.h"
 #include "trace/options.h"
+#include "wither/options.h"
 
 #include <filesystem>
 #include <string>
@@ -66,6 +67,7 @@ struct Project {
   trace::SamplingOptions sampling;
   lpt::FitOptions fit;
   tiles::TileOptions tiles;
+  wither::WitherOptions wither;
   scene::SunOptions sun;
   scene::SkyOptions sky;
   render::RenderOptions render;

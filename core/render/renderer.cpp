@@ -6,6 +6,8 @@
 #include "render/programs.h"
 #include "render/relit_ground.h"
 #include "render/sky_map.h"
+#include "render/texel_pass.h"
+#include "render/texel_set.h"
 
 #include <algorithm>
 #include <cmath>
@@ -94,13 +96,18 @@ struct Renderer::Impl {
   std::vector<float> pixels;           ///< what was read last: large, and asked for again and again
   std::shared_ptr<const bake::GroundBake> ground;
   std::optional<RelitGround> relit;
+  TexelPass texelPass;
+  std::optional<TexelSet> texels;
+  bool texelsLit = false;
   std::optional<scene::Daylight> daylight;
   double hazeKm = 0.0;
   std::uint64_t revision = 1;  ///< of ground and light
 
-  Result<void> ready() {
+  Result<void> ready(GroundMethod method = GroundMethod::March) {
     SWARD_TRY(context.makeCurrent());
-    if (!relit) return Error::failed("no ground was given to the renderer", "render");
+    const bool drawsTexels = method == GroundMethod::Texels;
+    if (drawsTexels && !texels) return Error::failed("no texels were given to the renderer", "render");
+    if (!drawsTexels && !relit) return Error::failed("no ground was given to the renderer", "render");
     if (!daylight) return Error::failed("no daylight was given to the renderer", "render");
     return {};
   }
@@ -140,30 +147,51 @@ struct Renderer::Impl {
   double madeSideM = 0.0;      ///< tiles of this size
 
   PassInput input() const {
-    return {ground.get(),
-            &*relit,
-            &map,
-            &sky,
-            &horizon,
-            daylight->sunDirection(),
-            daylight->sunIrradiance(),
-            hazeKm > 0.0 ? 1.0 / (hazeKm * kMetresPerKilometre) : 0.0};
+    return {ground.get(), &*relit, &map, &sky, &horizon, daylight->sunDirection(), daylight->sunIrradiance(),
+            hazePerM()};
+  }
+
+  TexelPassInput texelInput() const {
+    return {&*texels, &sky, &horizon, daylight->sunDirection(), daylight->sunIrradiance(), hazePerM()};
+  }
+
+  double hazePerM() const { return hazeKm > 0.0 ? 1.0 / (hazeKm * kMetresPerKilometre) : 0.0; }
+
+  Result<void> lightTexels() {
+    if (texelsLit) return {};
+    SWARD_TRY(texels->relight({daylight->sunDirection(), daylight->sunIrradiance(), daylight->meanSkyRadiance()}, {}));
+    texelsLit = true;
+    return context.checkErrors("lighting the texels");
+  }
+
+  static void clear(const Drawing::Impl& drawing) {
+    constexpr float kBlack[4] = {};
+    gpu::gl().ClearNamedFramebufferfv(drawing.framebuffer.name(), GL_COLOR, 0, kBlack);
+  }
+
+  Result<void> beginTexels(Drawing::Impl& drawing) {
+    if (!drawing.frame.mode.plain()) {
+      return Error::badInput("texels have no view modes", "render.method", "Draw the plain picture, or the layers.");
+    }
+    SWARD_TRY(lightTexels());
+    clear(drawing);
+    drawing.drawn = 0;
+    drawing.revision = revision;
+    return {};
   }
 
   Result<void> begin(Drawing::Impl& drawing, const Frame& frame) {
     SWARD_TRY(checkFrame(frame));
-    SWARD_TRY(ready());
+    SWARD_TRY(ready(frame.options.method));
     drawing.drawn = frame.options.samples;  // nothing more to draw, should the rest fail
     drawing.frame = frame;
     SWARD_TRY(makeTarget(drawing));
+    if (frame.options.method == GroundMethod::Texels) return beginTexels(drawing);
     drawing.plan = planBlocks(frame, *ground, relit->hasBlades());
     SWARD_TRY(relit->setMode(frame.mode, *ground));
     SWARD_TRY(relit->relight(programs, drawing.plan.sets));
     makeMap(frame.options);
-    if (frame.options.samples > 1 || frame.columns || !frame.mode.plain()) {
-      constexpr float kBlack[4] = {};
-      gpu::gl().ClearNamedFramebufferfv(drawing.framebuffer.name(), GL_COLOR, 0, kBlack);
-    }
+    if (frame.options.samples > 1 || frame.columns || !frame.mode.plain()) clear(drawing);
     drawing.legend = legendOf(frame.mode, *ground);
     drawing.drawn = 0;
     drawing.revision = revision;
@@ -174,11 +202,14 @@ struct Renderer::Impl {
     const int samples = drawing.frame.options.samples;
     if (drawing.drawn >= samples) return Error::failed("all samples are drawn", "render");
     if (drawing.revision != revision) return Error::failed("ground or light changed within a picture", "render");
-    SWARD_TRY(ready());
+    const bool drawsTexels = drawing.frame.options.method == GroundMethod::Texels;
+    SWARD_TRY(ready(drawing.frame.options.method));
     const Columns columns = drawing.frame.drawn();
-    // Another picture may have been begun in between, in another mode.
-    SWARD_TRY(relit->setMode(drawing.frame.mode, *ground));
-    SWARD_TRY(relit->relight(programs, drawing.plan.sets));
+    if (!drawsTexels) {
+      // Another picture may have been begun in between, in another mode.
+      SWARD_TRY(relit->setMode(drawing.frame.mode, *ground));
+      SWARD_TRY(relit->relight(programs, drawing.plan.sets));
+    }
     drawing.framebuffer.bind();
     if (samples > 1) {
       gpu::gl().BlendFunc(GL_ONE, GL_ONE);
@@ -188,7 +219,9 @@ struct Renderer::Impl {
       gpu::gl().Scissor(columns.begin, 0, columns.end - columns.begin, drawing.frame.height);
       gpu::gl().Enable(GL_SCISSOR_TEST);
     }
-    Result<void> drawn = pass.draw(programs, input(), drawing.frame, drawing.plan, drawing.drawn, 1.0 / samples);
+    const double weight = 1.0 / samples;
+    Result<void> drawn = drawsTexels ? texelPass.draw(programs, texelInput(), drawing.frame, drawing.drawn, weight)
+                                     : pass.draw(programs, input(), drawing.frame, drawing.plan, drawing.drawn, weight);
     gpu::gl().Disable(GL_BLEND);
     gpu::gl().Disable(GL_SCISSOR_TEST);
     SWARD_TRY(std::move(drawn));
@@ -215,6 +248,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gpu::Context& context) {
   std::unique_ptr<Renderer> renderer(new Renderer());
   renderer->m_impl = std::make_unique<Impl>(context);
   renderer->m_impl->pass = GroundPass::create();
+  renderer->m_impl->texelPass = TexelPass::create();
   SWARD_TRY(context.checkErrors("renderer"));
   return renderer;
 }
@@ -231,6 +265,18 @@ Result<void> Renderer::setGround(std::shared_ptr<const bake::GroundBake> ground)
   impl.ground = std::move(ground);
   impl.relit = std::move(relit);
   if (impl.daylight) impl.relit->setIllumination(illuminationOf(*impl.daylight));
+  return {};
+}
+
+Result<void> Renderer::setTexels(std::shared_ptr<const bake::TexelBake> texels) {
+  Impl& impl = *m_impl;
+  SWARD_TRY(impl.context.makeCurrent());
+  impl.texels.reset();
+  SWARD_ASSIGN(TexelSet set, TexelSet::create(std::move(texels)));
+  SWARD_TRY(impl.context.checkErrors("uploading the texels"));
+  impl.texels = std::move(set);
+  impl.texelsLit = false;
+  ++impl.revision;
   return {};
 }
 
@@ -252,6 +298,7 @@ void Renderer::setDaylight(const scene::Daylight& daylight, double hazeKm) {
   impl.sky = makeSkyTexture(daylight);
   impl.horizonValues = makeHorizonBuffer(daylight);
   impl.horizon = gpu::Texture::ofBuffer(GL_RGBA32F, impl.horizonValues);
+  impl.texelsLit = false;
   if (impl.relit) impl.relit->setIllumination(illuminationOf(daylight));
 }
 

@@ -2,6 +2,7 @@
 
 #include "bake/ground_bake.h"
 #include "bake/inspection.h"
+#include "bake/texel_bake.h"
 #include "base/result.h"
 #include "gpu/context.h"
 #include "image/bytes.h"
@@ -62,6 +63,9 @@ class Renderer {
 
   /// Uploads a bake; replaces the one before. An error when the GPU has no room.
   Result<void> setGround(std::shared_ptr<const bake::GroundBake> ground);
+  /// What GroundMethod::Texels draws in place of the ground; replaces the texels before. An error when the GPU has no
+  /// room.
+  Result<void> setTexels(std::shared_ptr<const bake::TexelBake> texels);
   /// What the view modes Visibility and Condition show of the ground; the next setGround() forgets it. Errors: it
   /// belongs to another ground.
   Result<void> setInspection(const bake::Inspection& inspection);

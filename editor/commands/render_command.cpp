@@ -2,6 +2,7 @@
 #include "commands.h"
 #include "methods.h"
 
+#include "bake/texel_baker.h"
 #include "gpu/context.h"
 #include "image/io.h"
 #include "project/limits.h"
@@ -127,11 +128,21 @@ struct RenderTimes {
   double start = 0.0, bake = 0.0, upload = 0.0, draw = 0.0, write = 0.0;
 };
 
-Result<image::Image> drawPicture(Program& program, const RenderPlan& plan, gpu::Context& context,
-                                 std::shared_ptr<const bake::GroundBake> ground, RenderTimes& times) {
+/// What is drawn: one of the two.
+struct Baked {
+  std::shared_ptr<const bake::GroundBake> ground;
+  std::shared_ptr<const bake::TexelBake> texels;
+};
+
+Result<image::Image> drawPicture(Program& program, const RenderPlan& plan, gpu::Context& context, Baked baked,
+                                 RenderTimes& times) {
   StopWatch watch;
   SWARD_ASSIGN(const auto renderer, render::Renderer::create(context));
-  SWARD_TRY(renderer->setGround(std::move(ground)));
+  if (baked.texels) {
+    SWARD_TRY(renderer->setTexels(std::move(baked.texels)));
+  } else {
+    SWARD_TRY(renderer->setGround(std::move(baked.ground)));
+  }
   times.upload = watch.lap();
   renderer->setDaylight(plan.daylight, plan.project.sky.hazeKm);
   if (program.interrupts.requested()) return Error::cancelled();
@@ -168,17 +179,21 @@ Result<int> runRender(Program& program, const RenderRequest& request) {
   SWARD_ASSIGN(const auto choice, chooseBake(program, plan.project, {plan.view}, *context));
   times.start = watch.lap();
   bake::BakeReport baked;
-  std::shared_ptr<const bake::GroundBake> ground;
-  {
+  Baked scene;
+  if (plan.project.render.method == render::GroundMethod::Texels) {
+    bake::TexelBaker baker;
+    ProgressBar bar(program);
+    SWARD_ASSIGN(scene.texels, baker.texels(plan.project, 0, bar.job()));
+  } else {
     // The baker goes before the picture is drawn: its memory cache is of no more use.
     bake::Baker baker = openBaker(program);
     ProgressBar bar(program);
-    SWARD_ASSIGN(ground, baker.ground(plan.project, bar.job(), &baked));
+    SWARD_ASSIGN(scene.ground, baker.ground(plan.project, bar.job(), &baked));
   }
   times.bake = watch.lap();
   for (const std::string& warning : baked.warnings) warn(program, warning);
   say(program, bakeText(baked));
-  SWARD_ASSIGN(const image::Image picture, drawPicture(program, plan, *context, std::move(ground), times));
+  SWARD_ASSIGN(const image::Image picture, drawPicture(program, plan, *context, std::move(scene), times));
   watch.lap();
   {
     const auto writing = program.interrupts.writing();

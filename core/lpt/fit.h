@@ -71,8 +71,8 @@ struct Fit {
 
 /// Weighted, centred, regularised least squares of science.md section 1 (LPT, equation 4; PTM per layer texel), or the
 /// paper's own (options.paper): least squares of minimum norm in u. LayerCoordinate::Response needs sky terms and
-/// lights that tell the six functions of a PTM apart; without them, the coordinate is Depth. There, a sample that is
-/// not finite leaves out its texel, and rank is that of the nine functions on distinct coordinates. Weights are
+/// lights that tell the six functions of a PTM apart; without them, the coordinate is Depth. In Response, a sample
+/// that is not finite leaves out its texel, and rank is that of the nine functions on distinct coordinates. Weights are
 /// max(delta, 1/(2m)) alpha; delta alone for a paper's LPT. Texels without a positive, finite weight count as absent. A
 /// sample that is not finite leaves out its row (texel and light) in every channel; the result never holds a NaN.
 /// Columns without a row are empty: zero coefficients. Same bytes on any number of threads. Errors: no lights or one

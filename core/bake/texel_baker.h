@@ -20,8 +20,9 @@ struct TexelReport {
   std::uint64_t bytes = 0;  ///< of the levels, in memory
 };
 
-/// Makes the texels of projects and remembers what the last one is aged from, so that curves, mingling and the weathering
-/// degree change a texel without growing or voxelising anything anew. Not thread-safe: one per thread of work.
+/// Makes the texels of projects and remembers what the last one is aged from, so that curves, mingling and the
+/// weathering degree change a texel without growing or voxelising anything anew. Not thread-safe: one per thread of
+/// work.
 class TexelBaker {
  public:
   TexelBaker();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/result.h"
+#include "leaf/options.h"
 #include "lpt/options.h"
 #include "mesh/options.h"
 #include "render/options.h"
@@ -67,6 +68,7 @@ struct Project {
   trace::SamplingOptions sampling;
   lpt::FitOptions fit;
   tiles::TileOptions tiles;
+  leaf::LeafOptions leaf;
   wither::WitherOptions wither;
   scene::SunOptions sun;
   scene::SkyOptions sky;

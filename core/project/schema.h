@@ -31,6 +31,7 @@ void describe(A& a, typename A::template Ref<Project> v) {
           of(Role::Shape).says("Sampling", "How finely the patch is cut into layers and texels."));
   a.field("fit", v.fit, of(Role::Shape).says("Relighting", "How the answer to light is fitted and stored."));
   a.field("tiles", v.tiles, of(Role::Shape).says("Tiles", "How the patch is cut into tiles and laid over the ground."));
+  a.field("leaf", v.leaf, of(Role::Colour).says("Leaf colour", "What leaves contain, and how they dry to straw."));
   a.field("wither", v.wither,
           of(Role::Shape).says("Withering", "How the sward goes from green to straw through an autumn."));
   a.field("sun", v.sun,

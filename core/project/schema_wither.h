@@ -7,6 +7,74 @@
 namespace sward::project {
 
 template <typename A>
+void describe(A& a, typename A::template Ref<leaf::LeafOptions> v) {
+  a.field("model", v.model, of(Role::Colour).says("Leaf model", "How a leaf's colour follows from its pigments."));
+  a.field("chlorophyll", v.chlorophyll,
+          range(0.0, 1000.0, "\u00b5g/cm\u00b2")
+              .soft(5.0, 80.0)
+              .in("Fresh leaf")
+              .says("Chlorophyll", "Of a fresh leaf. More is a darker, deeper green."));
+  a.field("carotenoid", v.carotenoid,
+          range(0.0, 1000.0, "\u00b5g/cm\u00b2")
+              .soft(0.0, 20.0)
+              .in("Fresh leaf")
+              .says("Carotenoid", "The yellow that shows once the green has gone."));
+  a.field("waterCm", v.waterCm,
+          range(0.0, 10.0, "cm")
+              .soft(0.002, 0.05)
+              .in("Fresh leaf")
+              .expert()
+              .says("Water", "Thickness of the water in a fresh leaf."));
+  a.field("dryMatter", v.dryMatter,
+          range(0.0, 1.0, "g/cm\u00b2")
+              .soft(0.001, 0.02)
+              .in("Fresh leaf")
+              .expert()
+              .says("Dry matter", "Of a leaf, fresh or dry. More is darker straw."));
+  a.field("structure", v.structure,
+          range(1.0, 100.0, "plates")
+              .soft(1.0, 3.0)
+              .in("Fresh leaf")
+              .expert()
+              .says("Structure", "Plates that the leaf scatters like: more is paler and lets less light through."));
+  a.field("brownWhenDry", v.brownWhenDry,
+          range(0.0, 100.0)
+              .soft(0.0, 2.0)
+              .in("Dry leaf")
+              .says("Brown when dry", "Brown pigment without water: raise it for brown rather than golden straw."));
+  a.field("carotenoidWhenDry", v.carotenoidWhenDry,
+          range(0.0, 1000.0, "\u00b5g/cm\u00b2")
+              .soft(0.0, 20.0)
+              .in("Dry leaf")
+              .says("Yellow when dry", "Carotenoid without water; as much as the fresh leaf's gives orange straw."));
+  a.field("structureWhenDry", v.structureWhenDry,
+          range(1.0, 100.0, "plates")
+              .soft(1.0, 5.0)
+              .in("Dry leaf")
+              .expert()
+              .says("Structure when dry", "Air between dry cell walls makes straw bright."));
+  a.field("surfaceShare", v.surfaceShare,
+          percent(0.0, 1.0).in("Surface").expert().says(
+              "Surface light", "Part of the colourless light from the leaf's surface that its colour holds."));
+  a.field("subtractionLevel", v.subtractionLevel,
+          range(0.0, 1.0)
+              .in("Subtraction")
+              .expert()
+              .says("Bare reflectance", "Of a leaf without pigments, in the subtraction model."));
+  a.field("subtractionStrength", v.subtractionStrength,
+          range(0.0, 1000.0)
+              .soft(0.0, 5.0)
+              .in("Subtraction")
+              .expert()
+              .says("Pigment strength", "What a fresh leaf's pigments take away, in the subtraction model."));
+  a.field("subtractionTransmission", v.subtractionTransmission,
+          range(0.0, 1.0)
+              .in("Subtraction")
+              .expert()
+              .says("Light through", "Transmittance over reflectance, which the subtraction model does not give."));
+}
+
+template <typename A>
 void describe(A& a, typename A::template Ref<wither::AgeingOptions> v) {
   a.field("autumn", v.autumn,
           of(Role::Shape).in("Autumn").says("Autumn", "Which course water and chlorophyll take over the season."));
@@ -18,7 +86,7 @@ void describe(A& a, typename A::template Ref<wither::AgeingOptions> v) {
                     "Share of their water that leaves keep over the season, for an autumn of your own. Dry blades "
                     "shrink and fall. Without points it is the normal autumn's."));
   a.field("chlorophyll", v.chlorophyll,
-          range(0.0, 1.0)
+          range(0.0, 1.0, "", Role::Colour)
               .axes("Season", "Chlorophyll")
               .in("Autumn")
               .says("Chlorophyll",
@@ -32,8 +100,11 @@ void describe(A& a, typename A::template Ref<wither::AgeingOptions> v) {
                     "The weathering degree over the season; it may rest but never fall. Without points both run "
                     "together."));
   a.field("tipLead", v.tipLead,
-          percent(0.0, 1.0).soft(0.0, 0.6).in("Blades").says(
-              "Tips first", "How much of the season a blade's tip is ahead of its root: green lingers at the roots."));
+          percent(0.0, 1.0, Role::Colour)
+              .soft(0.0, 0.6)
+              .in("Blades")
+              .says("Tips first",
+                    "How much of the season a blade's tip is ahead of its root: green lingers at the roots."));
   a.field("variation", v.variation,
           percent(0.0, 0.5).in("Blades").says(
               "Blades differ", "How much of the season blades start earlier or later than one another."));

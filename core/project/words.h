@@ -83,6 +83,12 @@ constexpr auto words(tiles::MapMethod) {
        {tiles::MapMethod::Hashed, "hashed", "Hashed",
         "Each tile follows from its place alone; needs every tile there is."}}};
 }
+constexpr auto words(leaf::LeafOptions::Model) {
+  using Model = leaf::LeafOptions::Model;
+  return std::array<Word<Model>, 2>{
+      {{Model::Plates, "plates", "Plates", "Light through layers that absorb: the truer, and straw is bright."},
+       {Model::Subtraction, "subtraction", "Subtraction", "Light minus what pigments absorb, as first published."}}};
+}
 constexpr auto words(wither::Autumn) {
   return std::array<Word<wither::Autumn>, 4>{
       {{wither::Autumn::Normal, "normal", "Normal autumn", "Leaves yellow, then dry and fall."},

@@ -6,7 +6,10 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <new>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -46,6 +49,21 @@ struct Voxel {
   /// S = sum of area times n n^T over volume: xx, xy, xz, yy, yz, zz, 1/m; its trace is the density where every leaf
   /// has a normal.
   std::array<float, 6> spread{};
+};
+
+/// Leaves new elements of a vector as the memory was, for those that are written right after.
+template <typename T>
+struct UnwrittenAllocator : std::allocator<T> {
+  template <typename U>
+  struct rebind {
+    using other = UnwrittenAllocator<U>;
+  };
+  template <typename U>
+  void construct(U*) noexcept {}
+  template <typename U, typename... Arguments>
+  void construct(U* at, Arguments&&... arguments) {
+    ::new (static_cast<void*>(at)) U(std::forward<Arguments>(arguments)...);
+  }
 };
 
 /// A texel: voxels in bricks of kBrick^3, of which only those that hold something are stored. Immutable.
@@ -107,8 +125,8 @@ class Texel {
   TexelGrid m_grid;
   std::vector<std::int32_t> m_bricks;  ///< [z][y][x] index into m_stored; -1: empty
   std::vector<Brick> m_stored;
-  std::vector<Voxel> m_voxels;
-  std::vector<glm::u16vec3> m_places;
+  std::vector<Voxel, UnwrittenAllocator<Voxel>> m_voxels;
+  std::vector<glm::u16vec3, UnwrittenAllocator<glm::u16vec3>> m_places;
 };
 
 }  // namespace sward::wither

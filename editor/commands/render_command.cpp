@@ -23,6 +23,7 @@ struct RenderRequest {
   std::string project, output, view, size, sun, maxError, device = "auto";
   std::vector<std::string> methods;
   std::optional<int> samples;
+  std::optional<double> weathering;
   double exposureEv = 0.0;
 };
 
@@ -109,6 +110,7 @@ Result<RenderPlan> planRender(const Program& program, const RenderRequest& reque
   SWARD_TRY(applyMethods(request.methods, project));
   SWARD_TRY(applySize(request.size, project));
   SWARD_TRY(applySun(request.sun, project));
+  if (request.weathering) project.wither.weathering = *request.weathering;
   if (request.samples) project.render.samples = *request.samples;
   if (!request.maxError.empty()) {
     SWARD_ASSIGN(project.accuracy, report::parseAccuracy(request.maxError));
@@ -153,6 +155,12 @@ Result<image::Image> drawPicture(Program& program, const RenderPlan& plan, gpu::
   return picture;
 }
 
+std::string texelText(const bake::TexelReport& made) {
+  return "made texels of " + std::to_string(made.voxels) + " voxels from " + std::to_string(made.points) +
+         " points: grown in " + secondsText(made.restSeconds) + ", aged in " + secondsText(made.ageSeconds) +
+         ", levels and skylight in " + secondsText(made.levelSeconds);
+}
+
 Json resultJson(const RenderPlan& plan, const gpu::DeviceInfo& device, const RenderTimes& times,
                 const bake::BakeReport& baked) {
   return {{"file", plan.output.string()},
@@ -183,7 +191,9 @@ Result<int> runRender(Program& program, const RenderRequest& request) {
   if (plan.project.render.method == render::GroundMethod::Texels) {
     bake::TexelBaker baker;
     ProgressBar bar(program);
-    SWARD_ASSIGN(scene.texels, baker.texels(plan.project, 0, bar.job()));
+    bake::TexelReport made;
+    SWARD_ASSIGN(scene.texels, baker.texels(plan.project, 0, bar.job(), &made));
+    say(program, texelText(made));
   } else {
     // The baker goes before the picture is drawn: its memory cache is of no more use.
     bake::Baker baker = openBaker(program);
@@ -241,6 +251,11 @@ void addRenderCommand(CLI::App& app, Program& program) {
       ->add_option("--max-error", request->maxError,
                    "Bake the cheapest that keeps this error in the view: rmse, psnr, ssim or flip, such as rmse=0.1")
       ->type_name("METRIC=BOUND");
+  command
+      ->add_option("--weathering", request->weathering,
+                   "How far the autumn has gone, 0 (green) to 1 (straw) [the project's]")
+      ->type_name("W")
+      ->check(CLI::Range(0.0, 1.0));
   command->add_option("--device", request->device, "OpenGL: auto, egl or osmesa [auto]")->type_name("D");
   command->add_option("--spp", request->samples, "Samples a pixel [the project's]")
       ->type_name("N")

@@ -296,10 +296,10 @@ TEST(Cones, GiveThePapersNumberOfPoints) {
   const scene::Patch patch = growCones({}, 1);
   const TexelGrid grid{256, 256, 1.0, 0.3};
   const Texel texel = voxelised(patch, grid);
-  // The cones' floats, 6e-8 at 1 m, against their widths of 3e-4: 2e-4 a vertex, at random.
-  EXPECT_NEAR(texel.areaM2() / leafAreaM2(patch), 1.0, 2e-4);
-  // Points for a voxel whose leaf area is that of its face: six.
-  const double points = 6.0 * texel.areaM2() / (grid.voxelM().x * grid.voxelM().y);
+  // The cones' floats, 6e-8 at 1 m, against their widths of 1.5e-4: 4e-4 a vertex, at random.
+  EXPECT_NEAR(texel.areaM2() / leafAreaM2(patch), 1.0, 4e-4);
+  // Six for a voxel whose leaf area is that of its face, of the square of its mean edge.
+  const double points = 6.0 * texel.areaM2() / std::pow(grid.voxelVolumeM3(), 2.0 / 3.0);
   EXPECT_GT(points, 3000.0);
   EXPECT_LT(points, 8000.0);
   // A hexagonal cone: half of six triangles of height h and base r, and of the foot.

@@ -3,6 +3,7 @@
 #include "base/random.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -68,6 +69,7 @@ class LeaderGrid {
 
 struct Sum {
   glm::dvec3 position{0.0}, normal{0.0}, tangent{0.0}, diffuse{0.0}, transmitted{0.0};
+  std::array<double, 6> spread{};
   double specular = 0.0, area = 0.0;
   std::uint32_t count = 0, first = 0;
 };
@@ -101,6 +103,7 @@ Points mergePoints(const Points& points, double thresholdM) {
     sum.diffuse += weight * glm::dvec3(points.diffuse[i]);
     sum.transmitted += weight * glm::dvec3(points.transmitted[i]);
     sum.specular += weight * static_cast<double>(points.specular[i]);
+    for (std::size_t c = 0; c < 6; ++c) sum.spread[c] += weight * static_cast<double>(points.spread[i][c]);
     sum.area += weight;
     ++sum.count;
   }
@@ -109,6 +112,7 @@ Points mergePoints(const Points& points, double thresholdM) {
   for (std::size_t i = 0; i < sums.size(); ++i) {
     const Sum& sum = sums[i];
     merged.attachments[i] = points.attachments[sum.first];
+    for (std::size_t c = 0; c < 6; ++c) merged.spread[i][c] = static_cast<float>(sum.spread[c] / sum.area);
     const bool alone = sum.count == 1;  // to the last bit as it was
     merged.positions[i] = alone ? points.positions[sum.first] : glm::vec3(sum.position / sum.area);
     merged.normals[i] = alone ? points.normals[sum.first] : direction(sum.normal, sum.area);

@@ -4,7 +4,9 @@
 #include "base/random.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 namespace sward::wither {
@@ -23,24 +25,64 @@ std::uint64_t randomOf(std::uint64_t seed, const glm::u16vec3& place, std::uint6
   return base::mix64(seed, at, draw);
 }
 
-Shares shareOut(const Texel& texel, double proportion, std::uint64_t seed) {
+/// Voxels strand by strand, from root to tip; those on none first, in their own order.
+std::vector<std::uint32_t> alongStrands(std::size_t voxels, std::span<const Attachment> attachments) {
+  std::vector<std::uint32_t> order(voxels);
+  std::iota(order.begin(), order.end(), 0u);
+  if (attachments.empty()) return order;
+  std::vector<std::uint64_t> keys(voxels);
+  for (std::size_t i = 0; i < voxels; ++i) {
+    const Attachment& at = attachments[i];
+    const float s = at.strand < 0 || !(at.s > 0.0f) ? 0.0f : at.s;  // bits of what is not below 0 are in its order
+    keys[i] = static_cast<std::uint64_t>(at.strand + 1) << 32 | std::bit_cast<std::uint32_t>(s);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
+  return order;
+}
+
+/// Numbers of points, one a voxel. The fractions that whole points leave over are summed along each strand from a
+/// random start, and each time that they pass a whole number there is a point: every voxel has it with the chance of
+/// its fraction, and a blade's points are as evenly spaced as its voxels allow (systematic sampling).
+std::vector<std::uint32_t> countPoints(const Texel& texel, std::span<const Attachment> attachments,
+                                       std::span<const double> wanted, std::uint64_t seed) {
+  std::vector<std::uint32_t> counts(texel.size());
+  double sum = 0.0;
+  std::int64_t strand = -2;
+  for (const std::uint32_t i : alongStrands(texel.size(), attachments)) {
+    const std::int64_t own = attachments.empty() ? -1 : attachments[i].strand;
+    if (own != strand) sum = base::unitDouble(base::mix64(seed, 0x706f696e7473, static_cast<std::uint64_t>(own + 1)));
+    strand = own;
+    const double whole = std::floor(wanted[i]);
+    sum += wanted[i] - whole;
+    counts[i] = static_cast<std::uint32_t>(whole);
+    if (sum < 1.0) continue;
+    sum -= 1.0;
+    ++counts[i];
+  }
+  return counts;
+}
+
+Shares shareOut(const Texel& texel, std::span<const Attachment> attachments, double proportion, std::uint64_t seed) {
   const std::span<const Voxel> voxels = texel.voxels();
   const double volume = texel.grid().voxelVolumeM3(), edge = std::cbrt(volume);
+  std::vector<double> wanted(voxels.size());
+  for (std::size_t i = 0; i < voxels.size(); ++i) {
+    wanted[i] = std::min(proportion * static_cast<double>(voxels[i].density) * edge, 1e6);
+  }
+  const std::vector<std::uint32_t> counts = countPoints(texel, attachments, wanted, seed);
   Shares shares{std::vector<std::uint32_t>(voxels.size() + 1, 0), std::vector<float>(voxels.size(), 0.0f)};
   double sparse = 0.0, drawn = 0.0;  // leaf area of voxels with less than a point, and of the points they got
   std::vector<std::size_t> few;
   for (std::size_t i = 0; i < voxels.size(); ++i) {
     const double area = static_cast<double>(voxels[i].density) * volume;
-    const double wanted = std::min(proportion * static_cast<double>(voxels[i].density) * edge, 1e6);
-    const double whole = std::floor(wanted);
-    const double chance = base::unitDouble(randomOf(seed, texel.places()[i], 0));
-    const double count = whole + (chance < wanted - whole ? 1.0 : 0.0);
-    shares.first[i + 1] = shares.first[i] + static_cast<std::uint32_t>(count);
-    shares.areaM2[i] = static_cast<float>(count > 0.0 ? area / (whole > 0.0 ? count : wanted) : 0.0);
-    if (whole > 0.0) continue;
+    const bool whole = wanted[i] >= 1.0;
+    shares.first[i + 1] = shares.first[i] + counts[i];
+    if (counts[i] > 0)
+      shares.areaM2[i] = static_cast<float>(area / (whole ? static_cast<double>(counts[i]) : wanted[i]));
+    if (whole) continue;
     sparse += area;
-    if (count == 0.0) continue;
-    drawn += area / wanted;
+    if (counts[i] == 0) continue;
+    drawn += area / wanted[i];
     few.push_back(i);
   }
   if (drawn > 0.0) {
@@ -115,6 +157,7 @@ void Points::resize(std::size_t count) {
   positions.resize(count);
   normals.resize(count);
   tangents.resize(count);
+  spread.resize(count);
   diffuse.resize(count);
   transmitted.resize(count);
   specular.resize(count);
@@ -132,7 +175,7 @@ Result<Points> texelToPoints(const Texel& texel, std::span<const Attachment> att
                              std::span<const Strand> strands, double proportion, std::uint64_t seed,
                              const JobContext& job) {
   SWARD_TRY(check(texel, attachments, strands, proportion));
-  const Shares shares = shareOut(texel, proportion, seed);
+  const Shares shares = shareOut(texel, attachments, proportion, seed);
   const std::vector<std::uint32_t> place = placesByStrand(shares, attachments, strands.size());
   const glm::dvec3 edge = texel.grid().voxelM();
   Points points;
@@ -145,14 +188,14 @@ Result<Points> texelToPoints(const Texel& texel, std::span<const Attachment> att
       for (std::uint32_t k = 0; k < shares.first[i + 1] - shares.first[i]; ++k) {
         const std::size_t p = place[i] + k;
         glm::dvec3 inside;
-        for (int c = 0; c < 3; ++c)
-          inside[c] = base::unitDouble(randomOf(seed, at, 1 + 3 * k + static_cast<unsigned>(c)));
+        for (int c = 0; c < 3; ++c) inside[c] = base::unitDouble(randomOf(seed, at, 3 * k + static_cast<unsigned>(c)));
         const glm::vec3 position((glm::dvec3(at) + inside) * edge);
         points.positions[p] = hung.strand < 0 ? position
                                               : beside(strands[static_cast<std::size_t>(hung.strand)],
                                                        static_cast<double>(hung.s), position, texel.grid().sideM);
         points.normals[p] = voxel.normal;
         points.tangents[p] = voxel.tangent;
+        for (std::size_t c = 0; c < 6; ++c) points.spread[p][c] = voxel.spread[c] / voxel.density;
         points.diffuse[p] = voxel.diffuse;
         points.transmitted[p] = voxel.transmitted;
         points.specular[p] = voxel.specular;

@@ -5,6 +5,7 @@
 #include "wither/strand.h"
 #include "wither/texel.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -18,6 +19,9 @@ struct Points {
   std::vector<glm::vec3> positions;  ///< metres, beside the strand they hang on: they may leave the block sideways
   std::vector<glm::vec3> normals;    ///< unit; zero: a vein
   std::vector<glm::vec3> tangents;   ///< unit or zero
+  /// Mean of n n^T over the leaves it stands for, in the order of Voxel::spread; trace at most 1. What a round stem
+  /// keeps when the normals around it cancel.
+  std::vector<std::array<float, 6>> spread;
   std::vector<glm::vec3> diffuse;
   std::vector<glm::vec3> transmitted;
   std::vector<float> specular;

@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -31,6 +32,17 @@ glm::vec3 turned(const glm::vec3& v, const glm::vec2& bendTo, float cosine, floa
   const float in = v.x * bendTo.x + v.y * bendTo.y;
   const float more = (cosine - 1.0f) * in + sine * v.z;
   return {v.x + more * bendTo.x, v.y + more * bendTo.y, cosine * v.z - sine * in};
+}
+
+/// R S R^T of a symmetric matrix: its rows turned, then the columns of what that gives.
+std::array<float, 6> turned(const std::array<float, 6>& s, const glm::vec2& bendTo, float cosine, float sine) {
+  const glm::vec3 x = turned(glm::vec3(s[0], s[1], s[2]), bendTo, cosine, sine);
+  const glm::vec3 y = turned(glm::vec3(s[1], s[3], s[4]), bendTo, cosine, sine);
+  const glm::vec3 z = turned(glm::vec3(s[2], s[4], s[5]), bendTo, cosine, sine);
+  const glm::vec3 a = turned(glm::vec3(x.x, y.x, z.x), bendTo, cosine, sine);
+  const glm::vec3 b = turned(glm::vec3(x.y, y.y, z.y), bendTo, cosine, sine);
+  const glm::vec3 c = turned(glm::vec3(x.z, y.z, z.z), bendTo, cosine, sine);
+  return {a.x, a.y, a.z, b.y, b.z, c.z};
 }
 
 }  // namespace
@@ -75,6 +87,7 @@ void SwardPose::moveRange(const Points& rest, Points& moved, std::size_t begin, 
       moved.positions[i] = rest.positions[i];
       moved.normals[i] = rest.normals[i];
       moved.tangents[i] = rest.tangents[i];
+      moved.spread[i] = rest.spread[i];
       moved.areaM2[i] = rest.areaM2[i];
       continue;
     }
@@ -93,6 +106,7 @@ void SwardPose::moveRange(const Points& rest, Points& moved, std::size_t begin, 
     moved.positions[i] = now;
     moved.normals[i] = turned(rest.normals[i], body.bendTo, cosine, sine);
     moved.tangents[i] = turned(rest.tangents[i], body.bendTo, cosine, sine);
+    moved.spread[i] = turned(rest.spread[i], body.bendTo, cosine, sine);
     moved.areaM2[i] = rest.areaM2[i] * body.area;
   }
 }
@@ -154,7 +168,7 @@ Result<void> paperPose(const Points& rest, std::span<const Strand> strands, cons
       const auto height = static_cast<double>(rest.positions[i].z);
       if (!(tips[k] > 0.0) || !(height > 0.0) || !(top > 0.0)) continue;
       const double angle = std::min(tips[k] * (top / height) * (top / height), kLargest);
-      const auto turn = [&](const glm::vec3& v, double by) {
+      const auto turn = [&](const auto& v, double by) {
         return turned(v, strands[k].bendTo, static_cast<float>(std::cos(by)), static_cast<float>(std::sin(by)));
       };
       const glm::vec3 root = strands[k].vein.front();
@@ -165,6 +179,7 @@ Result<void> paperPose(const Points& rest, std::span<const Strand> strands, cons
       const float length = glm::length(line);
       if (length > 0.0f && glm::dot(rest.tangents[i], rest.tangents[i]) > 0.0f) moved.tangents[i] = line / length;
       moved.normals[i] = turn(rest.normals[i], angle);
+      moved.spread[i] = turn(rest.spread[i], angle);
     }
   });
   if (job.cancelled()) return Error::cancelled();

@@ -23,9 +23,9 @@ class SwardPose {
             double weathering, const JobContext& job);
 
   /// Moves points from where they rest: as BentStrand does, in single precision (to 1e-6 of the block). Writes
-  /// positions, normals, tangents and areas of `moved`, which shrink with length and width; where a strand rests, or a
-  /// point hangs on none, they are copied to the last bit. The rest of `moved` is copied from `rest` where its size
-  /// differed. Errors: a point on a strand that is not there.
+  /// positions, normals, tangents, spreads and areas of `moved`, which shrink with length and width; where a strand
+  /// rests, or a point hangs on none, they are copied to the last bit. The rest of `moved` is copied from `rest` where
+  /// its size differed. Errors: a point on a strand that is not there.
   Result<void> move(const Points& rest, Points& moved, const JobContext& job) const;
   /// Ages diffuse and transmitted colours of `moved` from those at rest. Shares are taken linear between 17 places of
   /// each blade. Where the moment is 0 they stay.

@@ -131,14 +131,15 @@ Buckets bucket(std::span<const Splat> splats, std::span<const float> areas, floa
 
 using Values = std::array<float, kValues>;
 
-/// What a point adds to a voxel, for a weight of 1: area (in `unit`), area times attributes, area times n n^T.
+/// What a point adds to a voxel, for a weight of 1: area (in `unit`), area times attributes, area times spread.
 Values valuesOf(const Points& points, std::size_t i, float unit) {
   const float area = points.areaM2[i] / unit;
-  const glm::vec3 n = points.normals[i], t = area * points.tangents[i], an = area * n;
+  const glm::vec3 n = area * points.normals[i], t = area * points.tangents[i];
   const glm::vec3 d = area * points.diffuse[i], m = area * points.transmitted[i];
-  return {area,       an.x,       an.y,       an.z,       t.x,        t.y,       t.z,
-          d.x,        d.y,        d.z,        m.x,        m.y,        m.z,       area * points.specular[i],
-          an.x * n.x, an.x * n.y, an.x * n.z, an.y * n.y, an.y * n.z, an.z * n.z};
+  const std::array<float, 6>& s = points.spread[i];
+  return {area,        n.x,         n.y,         n.z,         t.x,         t.y,        t.z,
+          d.x,         d.y,         d.z,         m.x,         m.y,         m.z,        area * points.specular[i],
+          area * s[0], area * s[1], area * s[2], area * s[3], area * s[4], area * s[5]};
 }
 
 glm::vec3 direction(const glm::vec3& sum, float weight) {
@@ -233,8 +234,10 @@ bool finite(const glm::vec3& v) {
 
 Result<void> check(const Points& points, float perVolume) {
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const bool sound = finite(points.positions[i]) && finite(points.normals[i]) && finite(points.tangents[i]) &&
-                       finite(points.diffuse[i]) && finite(points.transmitted[i]) && std::isfinite(points.specular[i]);
+    const bool sound =
+        finite(points.positions[i]) && finite(points.normals[i]) && finite(points.tangents[i]) &&
+        finite(points.diffuse[i]) && finite(points.transmitted[i]) && std::isfinite(points.specular[i]) &&
+        std::all_of(points.spread[i].begin(), points.spread[i].end(), [](float s) { return std::isfinite(s); });
     if (sound && points.areaM2[i] >= 0.0f && std::isfinite(points.areaM2[i] * perVolume)) continue;
     return Error::badInput("point " + std::to_string(i) + " has a value that is no number, or no leaf area", "points",
                            "Check what the points were made from.");

@@ -52,6 +52,19 @@ void chooseBend(Strand& strand, base::Random& random) {
                                                                  : glm::dvec2(std::cos(azimuth), std::sin(azimuth));
 }
 
+Strand strandOf(Vein vein, const AgeingOptions& ageing, const BodyOptions& body, base::Random& random) {
+  Strand strand;
+  strand.vein = std::move(vein.points);
+  strand.lengthM = vein.lengthM;
+  const auto lower = [](const glm::dvec3& a, const glm::dvec3& b) { return a.z < b.z; };
+  const bool hangs = std::max_element(strand.vein.begin(), strand.vein.end(), lower) == strand.vein.begin();
+  const bool level = strand.vein.front().z - strand.vein.back().z <= 1e-3 * strand.lengthM;
+  strand.droop = hangs && !level ? 0.0 : 1.0;
+  chooseBend(strand, random);
+  draw(strand, ageing, body, random);
+  return strand;
+}
+
 double lowestOf(const PlaceGraph& graph, std::uint32_t part) {
   double low = std::numeric_limits<double>::infinity();
   for (const std::uint32_t p : graph.ofPart[part]) low = std::min(low, graph.places[p].z);
@@ -135,22 +148,12 @@ Result<Strands> strandsOf(const mesh::Model& plant, const AgeingOptions& ageing,
   std::vector<double> distances(graph.places.size());
   for (std::uint32_t part = 0; part < graph.ofPart.size(); ++part) {
     if (!stands[part]) continue;
-    Vein vein = findVein(graph, part, distances);
-    const auto index = static_cast<std::int32_t>(result.strands.size());
-    for (std::size_t i = 0; i < vein.s.size(); ++i) {
-      ofPlace[graph.ofPart[part][i]] = {index, static_cast<float>(vein.s[i])};
+    for (Vein& vein : findVeins(graph, part, distances)) {
+      const auto index = static_cast<std::int32_t>(result.strands.size());
+      for (std::size_t i = 0; i < vein.s.size(); ++i) ofPlace[vein.places[i]] = {index, static_cast<float>(vein.s[i])};
+      base::Random random(base::mix64(seed, kStream, static_cast<std::uint64_t>(index)));
+      result.strands.push_back(strandOf(std::move(vein), ageing, body, random));
     }
-    Strand strand;
-    strand.vein = std::move(vein.points);
-    strand.lengthM = vein.lengthM;
-    const auto higher = [](const glm::dvec3& a, const glm::dvec3& b) { return a.z < b.z; };
-    const bool hangs = std::max_element(strand.vein.begin(), strand.vein.end(), higher) == strand.vein.begin();
-    const bool level = strand.vein.front().z - strand.vein.back().z <= 1e-3 * strand.lengthM;
-    strand.droop = hangs && !level ? 0.0 : 1.0;
-    base::Random random(base::mix64(seed, kStream, static_cast<std::uint64_t>(index)));
-    chooseBend(strand, random);
-    draw(strand, ageing, body, random);
-    result.strands.push_back(std::move(strand));
   }
   for (std::uint32_t part = 0; part < graph.ofPart.size(); ++part) {
     if (stands[part]) continue;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -12,6 +13,9 @@ namespace sward::wither {
 namespace {
 
 constexpr int kSegments = 12;
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr double kWindow = 0.3;       // how far s may be from the share of the way along the mesh
+constexpr double kDeepestCut = 0.25;  // of the way: a part that falls apart farther out bends as one
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 struct Extent {
@@ -89,16 +93,27 @@ glm::dvec3 meanOf(const PlaceGraph& graph, std::span<const std::uint32_t> places
   return sum / static_cast<double>(places.size());
 }
 
+/// Some of a part's surface: what a vein is found in.
+struct Piece {
+  std::vector<std::uint32_t> places;
+  std::vector<glm::uvec3> triangles;
+};
+
+double farthestOf(std::span<const std::uint32_t> places, const std::vector<double>& distances) {
+  double farthest = 0.0;
+  for (const std::uint32_t p : places) farthest = std::max(farthest, distances[p]);
+  return farthest;
+}
+
 /// Centroids of the curves on the surface that lie at a distance of i / kSegments of the largest; levels that no
 /// triangle crosses are left out.
-std::vector<glm::dvec3> sections(const PlaceGraph& graph, std::uint32_t part, std::span<const std::uint32_t> roots,
+std::vector<glm::dvec3> sections(const PlaceGraph& graph, const Piece& piece, std::span<const std::uint32_t> roots,
                                  const std::vector<double>& distances) {
-  double farthest = 0.0;
-  for (const std::uint32_t p : graph.ofPart[part]) farthest = std::max(farthest, distances[p]);
+  const double farthest = farthestOf(piece.places, distances);
   std::vector<glm::dvec3> sums(kSegments + 1, glm::dvec3(0.0));
   std::vector<double> weights(kSegments + 1, 0.0);
   const double spacing = farthest / kSegments;
-  for (const glm::uvec3& triangle : graph.triangles[part]) {
+  for (const glm::uvec3& triangle : piece.triangles) {
     std::array<std::uint32_t, 3> p{triangle.x, triangle.y, triangle.z};
     std::sort(p.begin(), p.end(), [&](std::uint32_t a, std::uint32_t b) { return distances[a] < distances[b]; });
     const double low = distances[p[0]], middle = distances[p[1]], high = distances[p[2]];
@@ -117,7 +132,7 @@ std::vector<glm::dvec3> sections(const PlaceGraph& graph, std::uint32_t part, st
     }
   }
   std::vector<std::uint32_t> tips;
-  for (const std::uint32_t p : graph.ofPart[part]) {
+  for (const std::uint32_t p : piece.places) {
     if (distances[p] >= 0.98 * farthest) tips.push_back(p);
   }
   std::vector<glm::dvec3> line{meanOf(graph, roots)};
@@ -160,6 +175,100 @@ std::vector<glm::dvec3> evenlySpaced(const std::vector<glm::dvec3>& line) {
   }
   result.push_back(line.back());
   return result;
+}
+
+/// The vein of a piece, without what hangs on it.
+Vein veinOf(const PlaceGraph& graph, const Piece& piece, std::span<const std::uint32_t> roots,
+            const std::vector<double>& distances) {
+  Vein vein;
+  // Chords between even places of a bent line differ in length; the second pass leaves a tenth of the difference.
+  vein.points = evenlySpaced(evenlySpaced(smoothed(evenlySpaced(sections(graph, piece, roots, distances)))));
+  vein.lengthM = lengthOf(vein.points);
+  return vein;
+}
+
+/// Hangs places on a vein whose tip is `farthest` from the root.
+void hang(Vein& vein, const PlaceGraph& graph, std::span<const std::uint32_t> places,
+          const std::vector<double>& distances, double farthest) {
+  for (const std::uint32_t p : places) {
+    const double share = distances[p] / farthest;
+    vein.places.push_back(p);
+    vein.s.push_back(nearestOn(vein.points, graph.places[p], share - kWindow, share + kWindow).s);
+  }
+}
+
+/// A part's long pieces beyond a cut, and what is left.
+struct Limbs {
+  std::vector<Piece> pieces;  ///< none, or several
+  Piece rest;
+};
+
+std::uint32_t leaderOf(std::vector<std::uint32_t>& leaders, std::uint32_t place) {
+  while (leaders[place] != place) place = leaders[place] = leaders[leaders[place]];
+  return place;
+}
+
+/// The piece that each place beyond a distance belongs to, by number; kNone: to none that reaches over a third of the
+/// way from the cut to the farthest place. Returns how many there are.
+std::uint32_t piecesBeyond(const PlaceGraph& graph, std::uint32_t part, double cut, double farthest,
+                           const std::vector<double>& distances, std::vector<std::uint32_t>& numbers) {
+  const std::vector<std::uint32_t>& places = graph.ofPart[part];
+  std::vector<std::uint32_t> local(places.size());  // leaders, by place in the part
+  std::iota(local.begin(), local.end(), 0u);
+  const auto indexOf = [&](std::uint32_t p) {
+    return static_cast<std::uint32_t>(std::lower_bound(places.begin(), places.end(), p) - places.begin());
+  };
+  for (std::uint32_t i = 0; i < places.size(); ++i) {
+    if (distances[places[i]] < cut) continue;
+    for (std::uint32_t e = graph.firstEdge[places[i]]; e < graph.firstEdge[places[i] + 1]; ++e) {
+      const std::uint32_t q = graph.edges[e];
+      if (q < places[i] && distances[q] >= cut) local[leaderOf(local, i)] = leaderOf(local, indexOf(q));
+    }
+  }
+  std::vector<double> reach(places.size(), 0.0);
+  for (std::uint32_t i = 0; i < places.size(); ++i) {
+    double& own = reach[leaderOf(local, i)];
+    own = std::max(own, distances[places[i]]);
+  }
+  std::vector<std::uint32_t> numberOf(places.size(), kNone);
+  std::uint32_t count = 0;
+  numbers.assign(places.size(), kNone);
+  for (std::uint32_t i = 0; i < places.size(); ++i) {
+    if (distances[places[i]] < cut) continue;
+    const std::uint32_t leader = leaderOf(local, i);
+    if (reach[leader] - cut < (farthest - cut) / 3.0) continue;
+    if (numberOf[leader] == kNone) numberOf[leader] = count++;
+    numbers[i] = numberOf[leader];
+  }
+  return count;
+}
+
+Limbs findLimbs(const PlaceGraph& graph, std::uint32_t part, double farthest, const std::vector<double>& distances) {
+  constexpr int kCuts = 5;
+  const std::vector<std::uint32_t>& places = graph.ofPart[part];
+  Limbs limbs;
+  std::vector<std::uint32_t> numbers;
+  std::uint32_t count = 0;
+  for (int i = 1; i <= kCuts && count < 2; ++i) {
+    count = piecesBeyond(graph, part, kDeepestCut * farthest * i / kCuts, farthest, distances, numbers);
+  }
+  if (count < 2) {
+    limbs.rest = {places, graph.triangles[part]};
+    return limbs;
+  }
+  limbs.pieces.resize(count);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    (numbers[i] == kNone ? limbs.rest : limbs.pieces[numbers[i]]).places.push_back(places[i]);
+  }
+  for (const glm::uvec3& triangle : graph.triangles[part]) {
+    std::uint32_t number = kNone;  // no edge joins two pieces
+    for (int i = 0; i < 3; ++i) {
+      const auto at = std::lower_bound(places.begin(), places.end(), triangle[i]) - places.begin();
+      number = std::min(number, numbers[static_cast<std::size_t>(at)]);
+    }
+    (number == kNone ? limbs.rest : limbs.pieces[number]).triangles.push_back(triangle);
+  }
+  return limbs;
 }
 
 }  // namespace
@@ -223,28 +332,41 @@ Nearest nearestOn(std::span<const glm::dvec3> vein, const glm::dvec3& place, dou
   return best;
 }
 
-Vein findVein(const PlaceGraph& graph, std::uint32_t part, std::vector<double>& distances) {
-  constexpr double kWindow = 0.3;  // how far s may be from the share of the way along the mesh
+std::vector<Vein> findVeins(const PlaceGraph& graph, std::uint32_t part, std::vector<double>& distances) {
   const std::vector<std::uint32_t>& places = graph.ofPart[part];
   const std::vector<std::uint32_t> roots = rootPlaces(graph, places);
   walk(graph, places, roots, distances);
-  double farthest = 0.0;
-  for (const std::uint32_t p : places) farthest = std::max(farthest, distances[p]);
-  Vein vein;
+  const double farthest = farthestOf(places, distances);
   if (!(farthest > 0.0)) {  // all in one place, or all of it is root
-    vein.points.assign(2, meanOf(graph, places));
-    vein.s.assign(places.size(), 0.0);
-    return vein;
+    return {{std::vector<glm::dvec3>(2, meanOf(graph, places)), 0.0, places, std::vector<double>(places.size(), 0.0)}};
   }
-  // Chords between even places of a bent line differ in length; the second pass leaves a tenth of the difference.
-  vein.points = evenlySpaced(evenlySpaced(smoothed(evenlySpaced(sections(graph, part, roots, distances)))));
-  vein.lengthM = lengthOf(vein.points);
-  vein.s.reserve(places.size());
-  for (const std::uint32_t p : places) {
-    const double share = distances[p] / farthest;
-    vein.s.push_back(nearestOn(vein.points, graph.places[p], share - kWindow, share + kWindow).s);
+  Limbs limbs = findLimbs(graph, part, farthest, distances);
+  std::vector<Vein> veins;
+  for (const Piece& limb : limbs.pieces) {
+    Piece whole = limb;
+    whole.places.insert(whole.places.end(), limbs.rest.places.begin(), limbs.rest.places.end());
+    whole.triangles.insert(whole.triangles.end(), limbs.rest.triangles.begin(), limbs.rest.triangles.end());
+    veins.push_back(veinOf(graph, whole, roots, distances));
+    hang(veins.back(), graph, limb.places, distances, farthestOf(limb.places, distances));
   }
-  return vein;
+  if (veins.empty()) {
+    veins.push_back(veinOf(graph, limbs.rest, roots, distances));
+    hang(veins.back(), graph, limbs.rest.places, distances, farthest);
+    return veins;
+  }
+  for (const std::uint32_t p : limbs.rest.places) {  // on the vein that passes nearest
+    Vein* best = &veins.front();
+    Nearest nearest{0.0, kInfinite};
+    for (Vein& vein : veins) {
+      const Nearest found = nearestOn(vein.points, graph.places[p], 0.0, kDeepestCut + kWindow);
+      if (found.distance >= nearest.distance) continue;
+      nearest = found;
+      best = &vein;
+    }
+    best->places.push_back(p);
+    best->s.push_back(nearest.s);
+  }
+  return veins;
 }
 
 }  // namespace sward::wither

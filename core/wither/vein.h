@@ -22,17 +22,19 @@ struct PlaceGraph {
 };
 PlaceGraph placeGraph(const mesh::Model& model, const mesh::Parts& parts);
 
-/// A part's line from its root to its tip.
+/// A line from a root to a tip, and what hangs on it.
 struct Vein {
   std::vector<glm::dvec3> points;  ///< evenly spaced
   double lengthM = 0.0;
-  /// One a place of the part, in the order of PlaceGraph::ofPart: s of the nearest place of the vein among those that
-  /// are about as far from the root.
+  std::vector<std::uint32_t> places;
+  /// One a place: s of the nearest place of the vein, among those that are about as far from the root.
   std::vector<double> s;
 };
-/// The vein of a part: middles of the sections that lie equally far from the root along the mesh's edges (Dijkstra).
-/// `distances` is room for one number a place of the graph; its content does not matter.
-Vein findVein(const PlaceGraph& graph, std::uint32_t part, std::vector<double>& distances);
+/// The veins of a part, between which its places are shared out: middles of the sections that lie equally far from the
+/// root along the mesh's edges (Dijkstra). One, unless what is farther than some distance of up to a quarter of the
+/// whole falls apart into several long pieces: a tuft or rosette in one mesh, of which each leaf has its own vein from
+/// the root. `distances` is room for one number a place of the graph; its content does not matter.
+std::vector<Vein> findVeins(const PlaceGraph& graph, std::uint32_t part, std::vector<double>& distances);
 
 /// The nearest place of a polyline of evenly spaced points.
 struct Nearest {

@@ -1,63 +1,102 @@
 #include "wither/withered_model.h"
 
+#include "mesh/parts.h"
+
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace sward::wither {
 namespace {
 
-/// Alpha-weighted mean of a material's texture times its factor.
-glm::vec3 meanColour(const mesh::Model& model, const mesh::Material& material) {
-  const glm::vec3 factor(material.baseColour);
-  if (material.texture < 0) return factor;
-  const image::Image& texture = model.textures[static_cast<std::size_t>(material.texture)];
-  const bool colour = texture.channels >= 3, alpha = texture.channels == 2 || texture.channels == 4;
-  glm::dvec3 sum(0.0);
-  double weights = 0.0;
-  for (int y = 0; y < texture.height; ++y) {
-    for (int x = 0; x < texture.width; ++x) {
-      const float* p = texture.pixels.data() + texture.offset(x, y);
-      const double weight = alpha ? static_cast<double>(p[texture.channels - 1]) : 1.0;
-      sum += weight * (colour ? glm::dvec3(p[0], p[1], p[2]) : glm::dvec3(static_cast<double>(p[0])));
-      weights += weight;
+/// What a textured part looks like at rest: means over its surface, by coverage.
+struct Swatch {
+  glm::dvec3 diffuse{0.0}, transmitted{0.0};
+  double weight = 0.0;
+};
+
+/// What the vertices of one model are coloured by.
+struct Palette {
+  std::vector<std::uint32_t> material;  ///< one a vertex: the first that it is drawn with
+  std::vector<std::uint32_t> swatch;    ///< one a vertex; kPlain: its material has no texture
+  std::vector<Swatch> swatches;
+  static constexpr std::uint32_t kPlain = 0xffffffffu;
+
+  explicit Palette(const mesh::Model& model);
+};
+
+/// Adds a triangle's colours, from a lattice of its points.
+void addTo(Swatch& swatch, const mesh::Model& model, std::uint32_t triangle) {
+  constexpr int kSide = 3;
+  const glm::uvec3& t = model.triangles[triangle];
+  const glm::dvec3 a(model.positions[t.x]), b(model.positions[t.y]), c(model.positions[t.z]);
+  const double area = glm::length(glm::cross(b - a, c - a)) + 1e-30;
+  for (int i = 0; i < kSide; ++i) {
+    for (int j = 0; i + j < kSide; ++j) {
+      const mesh::SurfaceSample at = mesh::surfaceAt(model, triangle, (static_cast<float>(i) + 1.0f / 3.0f) / kSide,
+                                                     (static_cast<float>(j) + 1.0f / 3.0f) / kSide);
+      const double weight = area * static_cast<double>(at.alpha);
+      swatch.diffuse += weight * glm::dvec3(at.reflectance);
+      swatch.transmitted += weight * glm::dvec3(at.transmittance);
+      swatch.weight += weight;
     }
   }
-  return weights > 0.0 ? factor * glm::vec3(sum / weights) : factor;
 }
 
-/// Index of the first material that a vertex is drawn with.
-std::vector<std::uint32_t> materialOfVertex(const mesh::Model& model) {
-  std::vector<std::uint32_t> result(model.positions.size(), 0);
+Palette::Palette(const mesh::Model& model)
+    : material(model.positions.size(), 0), swatch(model.positions.size(), kPlain) {
+  const mesh::Parts parts = mesh::findParts(model);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> numbers;  // by part and material
   for (std::size_t t = model.triangles.size(); t-- > 0;) {
-    for (int i = 0; i < 3; ++i) result[model.triangles[t][i]] = model.triangleMaterial[t];
+    const std::uint32_t own = model.triangleMaterial[t];
+    const bool textured = model.materials[own].texture >= 0;
+    std::uint32_t number = kPlain;
+    if (textured) {
+      number =
+          numbers.try_emplace({parts.ofTriangle[t], own}, static_cast<std::uint32_t>(swatches.size())).first->second;
+      if (number == swatches.size()) swatches.emplace_back();
+      addTo(swatches[number], model, static_cast<std::uint32_t>(t));
+    }
+    for (int i = 0; i < 3; ++i) {
+      material[model.triangles[t][i]] = own;
+      swatch[model.triangles[t][i]] = number;
+    }
+  }
+  for (Swatch& mean : swatches) {
+    if (!(mean.weight > 0.0)) continue;
+    mean.diffuse /= mean.weight;
+    mean.transmitted /= mean.weight;
+  }
+}
+
+constexpr float kBlack = 1e-4f;  // a channel that dark cannot be multiplied to any other
+
+/// The vertex colour with which a textured part's mean reflects what the aged leaf does.
+glm::vec4 agedTextured(const Swatch& rest, const glm::vec4& vertex, const Season::Shares& shares,
+                       const AgeColour& colour) {
+  glm::vec3 diffuse(rest.diffuse), transmitted(rest.transmitted);
+  colour(diffuse, transmitted, shares);
+  glm::vec4 result = vertex;
+  for (int c = 0; c < 3; ++c) {
+    if (rest.diffuse[c] > static_cast<double>(kBlack)) result[c] *= diffuse[c] / static_cast<float>(rest.diffuse[c]);
   }
   return result;
 }
 
-/// What the vertices of one model share.
-struct Palette {
-  std::vector<glm::vec3> means;  ///< one a material
-  std::vector<std::uint32_t> ofVertex;
-
-  explicit Palette(const mesh::Model& model) : ofVertex(materialOfVertex(model)) {
-    for (const mesh::Material& material : model.materials) means.push_back(meanColour(model, material));
-  }
-};
-
-/// The vertex colour that makes the material's mean reflect what the aged leaf does.
-glm::vec4 agedVertex(const mesh::Material& material, const glm::vec3& mean, const glm::vec4& vertex,
-                     const Season::Shares& shares, const AgeColour& colour) {
-  constexpr float kBlack = 1e-4f;  // a channel that dark cannot be multiplied to any other
-  const glm::vec3 rest = glm::clamp(mean * glm::vec3(vertex), 0.0f, 1.0f);
-  glm::vec3 diffuse = rest;
+/// The same where the material has one colour: this very vertex reflects it.
+glm::vec4 agedPlain(const mesh::Material& material, const glm::vec4& vertex, const Season::Shares& shares,
+                    const AgeColour& colour) {
+  const glm::vec3 factor(material.baseColour);
+  glm::vec3 diffuse = glm::clamp(factor * glm::vec3(vertex), 0.0f, 1.0f);
   glm::vec3 transmitted =
-      rest * glm::vec3(material.optics.transmissionTint) * static_cast<float>(material.optics.translucency);
+      diffuse * glm::vec3(material.optics.transmissionTint) * static_cast<float>(material.optics.translucency);
   colour(diffuse, transmitted, shares);
   glm::vec4 result = vertex;
   for (int c = 0; c < 3; ++c) {
-    if (mean[c] > kBlack) result[c] = diffuse[c] / mean[c];
+    if (factor[c] > kBlack) result[c] = diffuse[c] / factor[c];
   }
   return result;
 }
@@ -79,8 +118,7 @@ struct Mover {
 
 /// Moves the vertices of `model` from `first` on, which hang on the mover's strands in the order of `attachments`.
 void move(mesh::Model& model, std::size_t first, std::span<const Attachment> attachments, const Mover& mover,
-          const Season& season, const Palette& palette, const AgeColour& colour,
-          std::span<const mesh::Material> materials) {
+          const Season& season, const Palette& palette, const AgeColour& colour) {
   for (std::size_t i = 0; i < attachments.size(); ++i) {
     const Attachment& at = attachments[i];
     if (at.strand < 0) continue;
@@ -92,11 +130,12 @@ void move(mesh::Model& model, std::size_t first, std::span<const Attachment> att
     position = glm::vec3(bent.position(glm::dvec3(position), s));
     glm::vec3& normal = model.normals[first + i];
     normal = glm::vec3(bent.direction(glm::dvec3(normal), s));
-    if (!colour || palette.means.empty()) continue;
-    const std::uint32_t material = palette.ofVertex[i];
+    if (!colour) continue;
+    const Season::Shares shares = season.sharesAt(mover.seasons[k], mover.strands[k].delay, s);
     glm::vec4& vertex = model.colours[first + i];
-    vertex = agedVertex(materials[material], palette.means[material], vertex,
-                        season.sharesAt(mover.seasons[k], mover.strands[k].delay, s), colour);
+    const std::uint32_t swatch = palette.swatch[i];
+    vertex = swatch == Palette::kPlain ? agedPlain(model.materials[palette.material[i]], vertex, shares, colour)
+                                       : agedTextured(palette.swatches[swatch], vertex, shares, colour);
   }
 }
 
@@ -140,7 +179,7 @@ Result<mesh::Model> withered(const mesh::Model& plant, const Strands& strands, c
   if (strands.attachments.size() != plant.positions.size()) return otherStrands(plant.name);
   mesh::Model model = plant;
   const Mover mover(strands.strands, season, SampleSeasons(season, samples, weathering));
-  move(model, 0, strands.attachments, mover, season, Palette(plant), colour, plant.materials);
+  move(model, 0, strands.attachments, mover, season, colour ? Palette(plant) : Palette({}), colour);
   return model;
 }
 
@@ -156,7 +195,7 @@ Result<scene::Patch> withered(const scene::Patch& patch, const PatchStrands& str
     const mesh::Model& model = *patch.models[m];
     const Strands& own = strands.models[m];
     if (own.attachments.size() != model.positions.size()) return otherStrands(model.name);
-    const Palette palette(model);
+    const Palette palette = colour ? Palette(model) : Palette({});
     mesh::Model sum;
     sum.name = model.name;
     sum.materials = model.materials;
@@ -168,7 +207,7 @@ Result<scene::Patch> withered(const scene::Patch& patch, const PatchStrands& str
       const std::span all(strands.strands);
       if (strands.firstStrand[i] + own.strands.size() > all.size()) return otherStrands("patch");
       const Mover mover(all.subspan(strands.firstStrand[i], own.strands.size()), season, moments);
-      move(sum, first, own.attachments, mover, season, palette, colour, model.materials);
+      move(sum, first, own.attachments, mover, season, palette, colour);
     }
     if (sum.empty()) continue;
     result.heightM = std::max(result.heightM, static_cast<double>(mesh::bounds(sum).high.z));

@@ -31,9 +31,9 @@ class SampleSeasons {
 };
 
 /// The mesh at a weathering degree: vertices moved with their strands, normals turned, colours aged vertex by vertex.
-/// Vertex colours multiply textures and factors, so a textured vertex is aged as its material's mean colour would be,
-/// and reflectance and transmittance change alike, as LeafOptics ties them. At a moment of 0 the mesh is returned as it
-/// is. Errors: strands of another mesh.
+/// Vertex colours multiply textures and factors, so a textured part is aged as its mean colour would be, and
+/// reflectance and transmittance change alike, as LeafOptics ties them. At a moment of 0 the mesh is returned as it is.
+/// Errors: strands of another mesh.
 Result<mesh::Model> withered(const mesh::Model& plant, const Strands& strands, const Season& season,
                              std::span<const MingleSample> samples, double weathering, const AgeColour& colour);
 

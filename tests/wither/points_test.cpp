@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <tuple>
 
 namespace sward::wither {
@@ -60,6 +61,25 @@ TEST(TexelToPoints, SparseVoxelsAreRightInTheMean) {
   // The common factor is within the count's own deviation of 1.
   const double own = blades.texel.areaM2() / voxels / 0.3;
   EXPECT_NEAR(points.areaM2.front() / own, 1.0, 5.0 * std::sqrt(0.7 / 0.3 / voxels));
+}
+
+/// 0.3 points a voxel: a point in every third or fourth voxel of a blade, from a start of its own.
+TEST(TexelToPoints, SparsePointsAreEvenlySpacedAlongABlade) {
+  const Blades blades = uprightBlades(20, 64, 0.05);
+  const Points points = sampled(blades, 6.0);
+  const double edge = blades.texel.grid().voxelM().z;
+  std::set<int> starts;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const int layer = static_cast<int>(points.positions[i].z / edge);
+    if (i == 0 || points.attachments[i].strand != points.attachments[i - 1].strand) {
+      starts.insert(layer);
+      EXPECT_LT(layer, 4);
+      continue;
+    }
+    const int gap = layer - static_cast<int>(points.positions[i - 1].z / edge);
+    EXPECT_TRUE(gap == 3 || gap == 4) << gap;
+  }
+  EXPECT_GT(starts.size(), 2u);
 }
 
 TEST(TexelToPoints, InheritsAndSortsByStrand) {

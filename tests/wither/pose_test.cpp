@@ -59,6 +59,9 @@ TEST(Pose, AgreesWithBentStrand) {
       EXPECT_LT(glm::length(glm::dvec3(moved.tangents[i]) - bent.direction(glm::dvec3(meadow.rest.tangents[i]), s)),
                 1e-6);
       EXPECT_GE(moved.positions[i].z, 0.0f);
+      const glm::vec3 n = moved.normals[i];  // one normal: the spread is n n^T
+      const std::array<float, 6> expected{n.x * n.x, n.x * n.y, n.x * n.z, n.y * n.y, n.y * n.z, n.z * n.z};
+      for (std::size_t c = 0; c < 6; ++c) EXPECT_NEAR(moved.spread[i][c], expected[c], 1e-5f);
       EXPECT_NEAR(moved.areaM2[i] / meadow.rest.areaM2[i], (1.0 - state.strainAlong) * (1.0 - state.strainAcross),
                   1e-6);
       // Shares are linear between 17 places: the curves' second derivative, below 20, times the lead of 0.3 / 16,

@@ -25,6 +25,8 @@ Points scattered(int count, std::uint64_t seed) {
     Points one = pointAt({random.uniform(-2.0, 2.0), random.uniform(-2.0, 2.0), random.uniform(-0.1, 0.6)},
                          static_cast<float>(random.uniform(0.0, 1e-3)));
     one.normals[0] = glm::normalize(glm::vec3(random.normal(), random.normal(), random.normal()));
+    const glm::vec3 n = one.normals[0];
+    one.spread[0] = {n.x * n.x, n.x * n.y, n.x * n.z, n.y * n.y, n.y * n.z, n.z * n.z};
     one.tangents[0] = glm::normalize(glm::vec3(random.normal(), random.normal(), random.normal()));
     one.diffuse[0] = {random.uniform(), random.uniform(), random.uniform()};
     add(points, one);
@@ -196,6 +198,25 @@ TEST(RoundTrip, KeepsAreaAndPlaces) {
     // cuts the Gaussian of the lowest of 38 layers, which lifts them by less than a quarter of a voxel.
     const auto n = static_cast<double>(points.size());
     EXPECT_NEAR(centre(back), centre(blades.texel), 4.0 * 11.0 / std::sqrt(n) + 0.25 / 38);
+  }
+}
+
+/// A round stem, whose normals cancel, hides as much after the round as before: the spread is kept.
+TEST(RoundTrip, KeepsWhatRoundStemsHide) {
+  std::vector<Texel::Entry> entries;
+  for (int z = 0; z < 20; ++z) {
+    Voxel voxel = leafVoxel(3.0);
+    voxel.normal = {0.0f, 0.0f, 1.0f};  // what a taper leaves over
+    voxel.spread = {1.5f, 0, 0, 1.5f, 0, 0};
+    entries.push_back({{16, 16, z}, voxel});
+  }
+  const Texel texel = Texel::fromEntries(kGrid, std::move(entries)).value();
+  const Points points = texelToPoints(texel, {}, {}, 50.0, 1, {}).value();
+  const Texel back = pointsToTexel(points, kGrid, 0.6, {}).value();
+  for (const Voxel& voxel : back.voxels()) {
+    EXPECT_NEAR(voxel.spread[0] / voxel.density, 0.5f, 1e-5f);
+    EXPECT_NEAR(voxel.spread[3] / voxel.density, 0.5f, 1e-5f);
+    EXPECT_NEAR(voxel.spread[5] / voxel.density, 0.0f, 1e-5f);
   }
 }
 

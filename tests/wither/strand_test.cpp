@@ -302,6 +302,36 @@ TEST(StrandsOf, LyingBladeIsRootedAtTheFoot) {
   EXPECT_GT(strands.strands[0].droop, 0.0);
 }
 
+TEST(StrandsOf, TuftInOneMeshIsAStrandABlade) {
+  // Five blades that lean out from one vertex, through which all are joined.
+  mesh::Model tuft;
+  tuft.materials.emplace_back();
+  const int blades = 5, segments = 6;
+  for (int k = 0; k < blades; ++k) {
+    mesh::Model blade = flatBlade(segments, 0.3 - 0.02 * k, 0.01);
+    for (glm::vec3& p : blade.positions) {
+      if (p.z == 0.0f) p = {0.0f, 0.0f, 0.0f};
+      p.y += 0.5f * p.z;
+    }
+    append(tuft, turned(blade, 2.0 * kPi * k / blades));
+  }
+  const Strands strands = found(tuft);
+  ASSERT_EQ(strands.strands.size(), 5u);
+  for (std::size_t i = 0; i < tuft.positions.size(); ++i) {
+    const Attachment& at = strands.attachments[i];
+    const glm::dvec3 p(tuft.positions[i]);
+    if (p.z == 0.0) {
+      EXPECT_LT(at.s, 0.01f);
+      continue;
+    }
+    const Strand& strand = strands.strands[static_cast<std::size_t>(at.strand)];
+    EXPECT_NEAR(at.s, p.z / strand.vein.back().z, 0.05);
+    // The lowest row of the shortest blade: 5 mm beside its middle, 18 mm out.
+    EXPECT_GT(glm::dot(strand.bendTo, glm::dvec2(p) / glm::length(glm::dvec2(p))), 0.96);
+    EXPECT_NEAR(strand.vein.front().z, 0.0, 1e-9);
+  }
+}
+
 TEST(StrandsOf, HangingLeafHasNoDroop) {
   mesh::Model blade = flatBlade(8, 0.3, 0.01);
   mesh::Model rim = blade;

@@ -73,6 +73,7 @@ inline Points pointAt(const glm::vec3& position, float area = 1.0f) {
   points.diffuse[0] = {0.1f, 0.2f, 0.3f};
   points.transmitted[0] = {0.3f, 0.2f, 0.1f};
   points.specular[0] = 0.5f;
+  points.spread[0] = {0, 0, 0, 1, 0, 0};
   points.areaM2[0] = area;
   return points;
 }
@@ -84,6 +85,7 @@ inline void add(Points& points, const Points more) {  // a copy: it may be the s
     points.positions[count + i] = more.positions[i];
     points.normals[count + i] = more.normals[i];
     points.tangents[count + i] = more.tangents[i];
+    points.spread[count + i] = more.spread[i];
     points.diffuse[count + i] = more.diffuse[i];
     points.transmitted[count + i] = more.transmitted[i];
     points.specular[count + i] = more.specular[i];

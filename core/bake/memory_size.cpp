@@ -15,7 +15,7 @@ std::uint64_t memoryBytes(const trace::LayerVisibility& visibility) {
   return visibility.visibility.size() * 3 * sizeof(float);
 }
 std::uint64_t memoryBytes(const lpt::Fit& fit) {
-  return (fit.coefficients.size() + fit.layerWeight.size()) * sizeof(float) +
+  return (fit.coefficients.size() + fit.layerWeight.size()) * sizeof(float) + fit.common.bytes() +
          static_cast<std::uint64_t>(fit.columns) * 13;
 }
 std::uint64_t memoryBytes(const lpt::LayerStack& stack) {

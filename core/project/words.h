@@ -49,6 +49,12 @@ constexpr auto words(lpt::Basis) {
        {lpt::Basis::Sampled, "sampled", "Traced for this sun",
         "Nothing is fitted: light is traced for the sun as it stands, and again for each new one."}}};
 }
+constexpr auto words(lpt::LayerCoordinate) {
+  return std::array<Word<lpt::LayerCoordinate>, 2>{
+      {{lpt::LayerCoordinate::Response, "response", "Expected light",
+        "How bright the sky and the plants above let each texel be: much truer, at the same size."},
+       {lpt::LayerCoordinate::Depth, "depth", "Depth", "The layer's depth alone, as first published."}}};
+}
 constexpr auto words(report::ErrorBound) {
   return std::array<Word<report::ErrorBound>, 5>{
       {{report::ErrorBound::None, "none", "None", "What the project says is baked, whatever its error."},

@@ -28,6 +28,7 @@ const std::map<std::string, std::set<std::string>>& allowedIncludes() {
       {"image", {"base"}},
       {"mesh", {"base", "image"}},
       {"scene", {"base", "image", "mesh"}},
+      {"terrain", upToScene},
       {"trace", upToScene},
       {"lpt", with(upToScene, {"trace"})},
       {"tiles", with(upToScene, {"trace", "lpt"})},

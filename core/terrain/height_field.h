@@ -34,10 +34,10 @@ struct HeightGrid {
   }
 };
 
-/// Largest side and number of samples of a grid that are read or made: 2^25 samples and what is derived from them take
-/// some 600 MB.
-inline constexpr int kMaxGridSide = 16384;
-inline constexpr std::size_t kMaxGridSamples = std::size_t{1} << 25;
+/// Largest side and number of samples of a grid that are read or made: 2^26 samples and what is derived from them take
+/// about 1 GiB.
+inline constexpr int kMaxGridSide = 24576;
+inline constexpr std::size_t kMaxGridSamples = std::size_t{1} << 26;
 
 struct HeightRange {
   double low = 0.0, high = 0.0;

@@ -6,6 +6,7 @@
 #include "render/options.h"
 #include "report/options.h"
 #include "scene/options.h"
+#include "terrain/options.h"
 #include "tiles/options.h"
 #include "trace/options.h"
 
@@ -66,6 +67,7 @@ struct Project {
   trace::SamplingOptions sampling;
   lpt::FitOptions fit;
   tiles::TileOptions tiles;
+  terrain::TerrainOptions terrain;
   scene::SunOptions sun;
   scene::SkyOptions sky;
   render::RenderOptions render;

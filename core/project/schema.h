@@ -30,6 +30,8 @@ void describe(A& a, typename A::template Ref<Project> v) {
           of(Role::Shape).says("Sampling", "How finely the patch is cut into layers and texels."));
   a.field("fit", v.fit, of(Role::Shape).says("Relighting", "How the answer to light is fitted and stored."));
   a.field("tiles", v.tiles, of(Role::Shape).says("Tiles", "How the patch is cut into tiles and laid over the ground."));
+  a.field("terrain", v.terrain,
+          of(Role::Shape).says("Terrain", "Hills and heightmaps under the grass. Nothing is baked anew."));
   a.field("sun", v.sun,
           of(Role::Shape).says("Sun", "Where the sun stands and how strong it is. Nothing is baked anew."));
   a.field("sky", v.sky, of(Role::Shape).says("Sky", "The air: clear or hazy. Nothing is baked anew."));

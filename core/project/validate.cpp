@@ -293,6 +293,19 @@ void checkTileCounts(const Project& project, Problems& out) {
   }
 }
 
+void checkTerrain(const Project& project, Problems& out) {
+  const terrain::TerrainOptions& t = project.terrain;
+  if (t.source != terrain::Source::Heightmap) return;
+  if (t.heightmap.path.empty()) {
+    return out.error("terrain.heightmap.path", "the terrain names no heightmap",
+                     "Give a PNG, TIFF, EXR or .asc file, relative to the project, or set terrain.source to hills.");
+  }
+  checkAsset(project, "terrain.heightmap.path", t.heightmap.path, out);
+  if (!(t.heightmap.heightHighM > t.heightmap.heightLowM)) {
+    out.warning("terrain.heightmap.heightHighM", "white is no higher than black", "Give more than heightLowM.");
+  }
+}
+
 void checkViews(const Project& project, Problems& out) {
   if (project.views.empty()) {
     out.warning("views", "the project has no views", "Add one; a default view at eye height is used otherwise.");
@@ -342,6 +355,7 @@ std::vector<Problem> validate(const Project& project) {
   checkSampling(project.sampling, problems);
   checkTileSizes(project, problems);
   checkTileCounts(project, problems);
+  checkTerrain(project, problems);
   checkViews(project, problems);
   checkRest(project, problems);
   return std::move(problems.list());

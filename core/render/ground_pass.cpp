@@ -99,11 +99,10 @@ double positiveModulo(double value, double period) {
 
 void setView(gpu::Program& program, const Frame& frame, int sample) {
   const scene::Camera& camera = frame.camera;
-  const glm::dvec2 place = samplePlace(sample, frame.options.samples);
   const glm::dvec2 scale(2.0 / frame.width, 2.0 / frame.height);
   const double aspect = static_cast<double>(frame.width) / frame.height;
   setIfUsed(program, "u_pixelScale", glm::vec2(scale));
-  setIfUsed(program, "u_pixelOffset", glm::vec2(place * scale - 1.0));
+  setIfUsed(program, "u_pixelOffset", glm::vec2(sampleOffset(frame, sample) - 1.0));
   setIfUsed(program, "u_viewRight", glm::vec3(camera.right * camera.tanHalfWidth));
   setIfUsed(program, "u_viewUp", glm::vec3(camera.up * (camera.tanHalfWidth / aspect)));
   setIfUsed(program, "u_viewForward", glm::vec3(camera.forward));
@@ -199,6 +198,8 @@ void setLight(gpu::Program& program, const PassInput& input, const Frame& frame,
   setIfUsed(program, "u_exposure", static_cast<float>(exposureOf(frame) * weight));
   setIfUsed(program, "u_hazePerM", static_cast<float>(input.hazePerM));
   setIfUsed(program, "u_sunDirection", glm::vec3(input.sunDirection));
+  setIfUsed(program, "u_sunIrradiance", glm::vec3(input.sunIrradiance));
+  setIfUsed(program, "u_meanSky", glm::vec3(input.meanSky));
   setIfUsed(program, "u_sunDisc", glm::vec3(input.sunIrradiance * scene::kSunDiscGain));
 }
 
@@ -216,6 +217,10 @@ void bindTextures(gpu::Program& program, const PassInput& input, const gpu::Text
 }
 
 }  // namespace
+
+glm::dvec2 sampleOffset(const Frame& frame, int sample) {
+  return samplePlace(sample, frame.options.samples) * glm::dvec2(2.0 / frame.width, 2.0 / frame.height);
+}
 
 BlockPlan planBlocks(const Frame& frame, const bake::GroundBake& ground, bool hasBlades) {
   constexpr int kProbes = 8;  // rays along a block's side, its corners and one pixel around them included
@@ -244,14 +249,37 @@ BlockPlan planBlocks(const Frame& frame, const bake::GroundBake& ground, bool ha
   return plan;
 }
 
+BlockPlan planTerrainBlocks(const Frame& frame, bool hasBlades) {
+  BlockPlan plan;
+  auto& blocks = plan.blocks[BlockPlan::kSky | kSlices | (hasBlades ? kBladesX | kBladesY : 0u)];
+  for (int y = 0; y < frame.height; y += BlockPlan::kBlock) {
+    for (int x = 0; x < frame.width; x += BlockPlan::kBlock) {
+      if (x >= frame.drawn().end || x + BlockPlan::kBlock <= frame.drawn().begin) continue;
+      blocks.push_back(static_cast<std::uint32_t>(x) | (static_cast<std::uint32_t>(y) << 16));
+    }
+  }
+  plan.sets.set(kSliceSet);
+  if (!hasBlades) return plan;
+  // Only directions within the picture, whose axes are those of the ground: slopes do not turn plants.
+  constexpr int kProbes = 16;
+  const double aspect = static_cast<double>(frame.width) / frame.height;
+  for (int i = 0; i < (kProbes + 1) * (kProbes + 1); ++i) {
+    const glm::dvec2 place(-0.05 + 1.1 * (i % (kProbes + 1)) / kProbes, -0.05 + 1.1 * (i / (kProbes + 1)) / kProbes);
+    plan.sets |= facingSets(frame.camera.rayDirection(place.x, place.y, aspect), kBladesX | kBladesY);
+  }
+  return plan;
+}
+
 GroundPass GroundPass::create() {
   GroundPass pass;
   pass.m_vertices = gpu::VertexArray::make();
   return pass;
 }
 
-Result<gpu::Program*> GroundPass::variant(ProgramCache& programs, const Frame& frame, unsigned needs) const {
-  const GroundMethod method = frame.options.method;
+Result<gpu::Program*> GroundPass::variant(ProgramCache& programs, const Frame& frame, unsigned needs,
+                                          bool terrain) const {
+  // The blended methods know level ground alone.
+  const GroundMethod method = terrain ? GroundMethod::March : frame.options.method;
   if (needs == BlockPlan::kSky)
     return programs.blocks("ground/sky.frag", {}, {"t_blocks", "t_sky", "u_sunDisc", "u_exposure"});
   const std::string file = method == GroundMethod::March ? "ground/march.frag" : "ground/blended.frag";
@@ -259,6 +287,7 @@ Result<gpu::Program*> GroundPass::variant(ProgramCache& programs, const Frame& f
                   {"SWARD_SKY", (needs & BlockPlan::kSky) != 0 ? "1" : "0"}};
   if (method != GroundMethod::March)
     defines.emplace_back("SWARD_PAPER_WEIGHTS", method == GroundMethod::BlendedPaper ? "1" : "0");
+  if (terrain) defines.emplace_back("SWARD_TERRAIN", "1");
   std::vector<std::string> uniforms{"t_blocks",   "t_relit",   "t_map",          "u_exposure",
                                     "u_eyeTiles", "u_heightM", "u_relightScale", "u_mapOffset"};
   if (frame.mode.plain()) {
@@ -266,7 +295,8 @@ Result<gpu::Program*> GroundPass::variant(ProgramCache& programs, const Frame& f
   } else {
     const bool tiles = frame.mode.quantity == ViewQuantity::Tiles;
     defines.emplace_back("SWARD_MODE", tiles ? "2" : "1");
-    uniforms.insert(uniforms.end(), {"u_sampleWeight", "u_soilWeight"});
+    uniforms.insert(uniforms.end(), {"u_sampleWeight"});
+    if (!terrain) uniforms.emplace_back("u_soilWeight");
   }
   return programs.blocks(file, defines, uniforms);
 }
@@ -291,9 +321,10 @@ Result<void> GroundPass::draw(ProgramCache& programs, const PassInput& input, co
       first += count;
       continue;
     }
-    SWARD_ASSIGN(gpu::Program * program, variant(programs, frame, needs));
+    SWARD_ASSIGN(gpu::Program * program, variant(programs, frame, needs, input.terrain != nullptr));
     program->use();
     bindTextures(*program, input, m_blocksView);
+    if (input.terrain != nullptr) input.terrain->bind(*program, *input.mesh);
     program->set("u_firstBlock", static_cast<int>(first));
     program->set("u_targetSize", glm::ivec2(frame.width, frame.height));
     program->set("u_blockSize", BlockPlan::kBlock);

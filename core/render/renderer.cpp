@@ -6,6 +6,7 @@
 #include "render/programs.h"
 #include "render/relit_ground.h"
 #include "render/sky_map.h"
+#include "render/terrain_pass.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,6 +43,7 @@ Result<void> checkFrame(const Frame& frame) {
 struct Drawing::Impl {
   Frame frame;
   BlockPlan plan;
+  TerrainMesh mesh;  ///< where there is a terrain
   gpu::Texture target;
   gpu::Framebuffer framebuffer;
   Legend legend;  ///< of the frame's mode
@@ -94,6 +96,8 @@ struct Renderer::Impl {
   std::vector<float> pixels;           ///< what was read last: large, and asked for again and again
   std::shared_ptr<const bake::GroundBake> ground;
   std::optional<RelitGround> relit;
+  std::shared_ptr<const terrain::HeightField> field;
+  std::optional<TerrainPass> terrain;  ///< of the field, where there is one
   std::optional<scene::Daylight> daylight;
   double hazeKm = 0.0;
   std::uint64_t revision = 1;  ///< of ground and light
@@ -139,7 +143,7 @@ struct Renderer::Impl {
   tiles::TileMap madeMap;      ///< this map and
   double madeSideM = 0.0;      ///< tiles of this size
 
-  PassInput input() const {
+  PassInput input(const Drawing::Impl& drawing) {
     return {ground.get(),
             &*relit,
             &map,
@@ -147,8 +151,13 @@ struct Renderer::Impl {
             &horizon,
             daylight->sunDirection(),
             daylight->sunIrradiance(),
-            hazeKm > 0.0 ? 1.0 / (hazeKm * kMetresPerKilometre) : 0.0};
+            hazeKm > 0.0 ? 1.0 / (hazeKm * kMetresPerKilometre) : 0.0,
+            daylight->meanSkyRadiance(),
+            terrain ? &*terrain : nullptr,
+            &drawing.mesh};
   }
+
+  double shellM() const { return std::max(ground->heightM, 1e-4); }
 
   Result<void> begin(Drawing::Impl& drawing, const Frame& frame) {
     SWARD_TRY(checkFrame(frame));
@@ -156,7 +165,9 @@ struct Renderer::Impl {
     drawing.drawn = frame.options.samples;  // nothing more to draw, should the rest fail
     drawing.frame = frame;
     SWARD_TRY(makeTarget(drawing));
-    drawing.plan = planBlocks(frame, *ground, relit->hasBlades());
+    drawing.mesh = terrain ? terrain->plan(frame, shellM()) : TerrainMesh();
+    drawing.plan =
+        terrain ? planTerrainBlocks(frame, relit->hasBlades()) : planBlocks(frame, *ground, relit->hasBlades());
     SWARD_TRY(relit->setMode(frame.mode, *ground));
     SWARD_TRY(relit->relight(programs, drawing.plan.sets));
     makeMap(frame.options);
@@ -179,6 +190,9 @@ struct Renderer::Impl {
     // Another picture may have been begun in between, in another mode.
     SWARD_TRY(relit->setMode(drawing.frame.mode, *ground));
     SWARD_TRY(relit->relight(programs, drawing.plan.sets));
+    if (terrain)
+      SWARD_TRY(terrain->drawEntries(programs, drawing.frame, drawing.mesh, shellM(),
+                                     sampleOffset(drawing.frame, drawing.drawn)));
     drawing.framebuffer.bind();
     if (samples > 1) {
       gpu::gl().BlendFunc(GL_ONE, GL_ONE);
@@ -188,7 +202,7 @@ struct Renderer::Impl {
       gpu::gl().Scissor(columns.begin, 0, columns.end - columns.begin, drawing.frame.height);
       gpu::gl().Enable(GL_SCISSOR_TEST);
     }
-    Result<void> drawn = pass.draw(programs, input(), drawing.frame, drawing.plan, drawing.drawn, 1.0 / samples);
+    Result<void> drawn = pass.draw(programs, input(drawing), drawing.frame, drawing.plan, drawing.drawn, 1.0 / samples);
     gpu::gl().Disable(GL_BLEND);
     gpu::gl().Disable(GL_SCISSOR_TEST);
     SWARD_TRY(std::move(drawn));
@@ -234,6 +248,19 @@ Result<void> Renderer::setGround(std::shared_ptr<const bake::GroundBake> ground)
   return {};
 }
 
+Result<void> Renderer::setTerrain(std::shared_ptr<const terrain::HeightField> field) {
+  Impl& impl = *m_impl;
+  SWARD_TRY(impl.context.makeCurrent());
+  if (field == impl.field) return {};
+  impl.terrain.reset();
+  impl.field = field;
+  ++impl.revision;
+  if (!field) return {};
+  SWARD_ASSIGN(impl.terrain, TerrainPass::create(std::move(field)));
+  if (impl.daylight) impl.terrain->setSun(impl.daylight->sunDirection());
+  return impl.context.checkErrors("uploading the terrain");
+}
+
 Result<void> Renderer::setInspection(const bake::Inspection& inspection) {
   Impl& impl = *m_impl;
   SWARD_TRY(impl.context.makeCurrent());
@@ -253,6 +280,7 @@ void Renderer::setDaylight(const scene::Daylight& daylight, double hazeKm) {
   impl.horizonValues = makeHorizonBuffer(daylight);
   impl.horizon = gpu::Texture::ofBuffer(GL_RGBA32F, impl.horizonValues);
   if (impl.relit) impl.relit->setIllumination(illuminationOf(daylight));
+  if (impl.terrain) impl.terrain->setSun(daylight.sunDirection());
 }
 
 Result<void> Renderer::begin(Drawing& drawing, const Frame& frame) {

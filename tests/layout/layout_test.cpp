@@ -35,9 +35,9 @@ const std::map<std::string, std::set<std::string>>& allowedIncludes() {
       {"project", {"base"}},
       {"bake", with(upToScene, {"trace", "lpt", "tiles", "project"})},
       {"gpu", {"base", "image"}},
-      {"render", with(upToScene, {"trace", "lpt", "tiles", "project", "bake", "gpu"})},
-      {"export", with(upToScene, {"trace", "lpt", "tiles", "project", "bake", "gpu", "render"})},
-      {"report", with(upToScene, {"trace", "lpt", "tiles", "project", "bake", "gpu", "render"})},
+      {"render", with(upToScene, {"terrain", "trace", "lpt", "tiles", "project", "bake", "gpu"})},
+      {"export", with(upToScene, {"terrain", "trace", "lpt", "tiles", "project", "bake", "gpu", "render"})},
+      {"report", with(upToScene, {"terrain", "trace", "lpt", "tiles", "project", "bake", "gpu", "render"})},
   };
   return allowed;
 }
@@ -73,11 +73,12 @@ TEST(Layout, IncludesFollowTheArrows) {
 
 /// The same for editor/: what each folder of it may include of the others and of core/.
 TEST(Layout, EditorIncludesFollowTheArrows) {
-  const std::set<std::string> core{"base",    "image", "mesh", "scene",  "trace",  "lpt",   "tiles",
-                                   "project", "bake",  "gpu",  "render", "export", "report"};
+  const std::set<std::string> core{"base",  "image",   "mesh", "scene", "terrain", "trace",  "lpt",
+                                   "tiles", "project", "bake", "gpu",   "render",  "export", "report"};
   const std::map<std::string, std::set<std::string>> allowed{
       {"document", {"base", "project"}},
-      {"live", {"base", "image", "mesh", "scene", "trace", "lpt", "tiles", "project", "bake", "gpu", "render"}},
+      {"live",
+       {"base", "image", "mesh", "scene", "terrain", "trace", "lpt", "tiles", "project", "bake", "gpu", "render"}},
       {"widgets", {"base", "image", "scene", "project"}},
       {"panels", {"document", "live", "widgets"}},
       {"app", {"document", "live", "widgets", "panels"}},

@@ -92,8 +92,8 @@ void marchBlades(Walk walk, Level level, bool axisX, float tEnd, float random) {
 
 #if SWARD_TERRAIN
 // One way through the shell: radiance over exposure, premultiplied by what was in front of it.
-vec3 marchTerrain(vec3 d, float enterM, vec3 random, float levelJitter, float lot, out bool soilSeen) {
-  TerrainWalk w = startTerrain(d, enterM);
+vec3 marchTerrain(vec3 d, float enterM, bool last, vec3 random, float levelJitter, float lot, out bool soilSeen) {
+  TerrainWalk w = startTerrain(d, enterM, last);
   Walk walk = w.walk;
   float before = g_transmittance;
   g_sum = vec3(0.0);
@@ -143,11 +143,13 @@ void main() {
     vec3 random = pixelRandom(pixel);
     float levelJitter = (1.0 + random.z) * kLevelBias;
     float lot = pixelRandom(pixel / kLotPixels).x;
-    bool soilSeen;
-    seen = marchTerrain(d, inside ? 0.0 : first, random, levelJitter, lot, soilSeen);
     float next = inside ? first : texelFetch(t_second, pixel, 0).r;
+    // Without a next entry that is far enough behind to be told apart, the first is the last.
+    bool last = next <= 0.0 && d.z < -kMeshHorizon;
+    bool soilSeen;
+    seen = marchTerrain(d, inside ? 0.0 : first, last, random, levelJitter, lot, soilSeen);
     if (!soilSeen && g_transmittance > 0.0 && next > 0.0)
-      seen += marchTerrain(d, next, random, levelJitter, lot, soilSeen);
+      seen += marchTerrain(d, next, true, random, levelJitter, lot, soilSeen);
   }
 #if SWARD_MODE
   o_radiance = vec4(seen * v_exposure, (1.0 - g_transmittance) * u_sampleWeight);

@@ -12,9 +12,11 @@ uniform float u_lookAheadM;        // nearest distance at which the ground's ben
 uniform vec3 u_sunIrradiance;
 uniform vec3 u_meanSky;            // radiance
 
-// Rays that sink less than so much a metre follow the ground's bend.
-const float kBendSlope = 0.35;
+// Rays that sink less than so much a metre follow the ground's bend, those that sink half as much wholly.
+const float kBendSlope = 0.4;
 const float kFar = 1e6;
+// The mesh reaches so far that rays under the horizon by more than this meet it again beyond every crest.
+const float kMeshHorizon = 0.002;
 
 struct TerrainWalk {
   Walk walk;
@@ -37,8 +39,8 @@ vec2 shellEnds(float h, float slope, float bend, bool fromTop) {
   return vec2(ground, top);
 }
 
-// From `enterM` on; 0: from the eye, within the shell.
-TerrainWalk startTerrain(vec3 d, float enterM) {
+// From `enterM` on; 0: from the eye, within the shell. `last`: nothing is known behind, so that the ray ends here.
+TerrainWalk startTerrain(vec3 d, float enterM, bool last) {
   bool inside = enterM <= 0.0;
   TerrainWalk w;
   w.ground = terrainAt(d.xy, enterM).xyz;
@@ -48,7 +50,9 @@ TerrainWalk startTerrain(vec3 d, float enterM) {
   if (abs(slope) < kBendSlope) {
     float ahead = max(0.5 * v_heightM / max(abs(slope), kLeastSlope), u_lookAheadM);
     vec2 turn = terrainAt(d.xy, enterM + ahead).xy - w.ground.xy;
-    w.bend = -dot(turn, d.xy) / ahead;
+    float shallow = 1.0 - smoothstep(0.5 * kBendSlope, kBendSlope, abs(slope));
+    w.bend = -dot(turn, d.xy) / ahead * shallow;
+    if (last) w.bend = min(w.bend, 0.0);
   }
   Walk walk;
   walk.slopeZ = slope < 0.0 ? min(slope, -1e-5) : max(slope, 1e-5);

@@ -10,8 +10,8 @@ void main() {
   float distanceM = length(v_fromEye);
 #if SWARD_SECOND
   float first = texelFetch(t_first, ivec2(gl_FragCoord.xy), 0).r;
-  // Triangles that share an edge or a vertex are no second entry.
-  if (first <= 0.0 || distanceM <= first * 1.002 + 0.05) discard;
+  // The crest that a ray has just grazed is no second entry.
+  if (first <= 0.0 || distanceM <= first * 1.01 + 1.0) discard;
 #endif
   o_distance = distanceM;
 }

@@ -151,12 +151,13 @@ struct Renderer::Impl {
             &horizon,
             daylight->sunDirection(),
             daylight->sunIrradiance(),
-            hazeKm > 0.0 ? 1.0 / (hazeKm * kMetresPerKilometre) : 0.0,
+            hazePerM(),
             daylight->meanSkyRadiance(),
             terrain ? &*terrain : nullptr,
             &drawing.mesh};
   }
 
+  double hazePerM() const { return hazeKm > 0.0 ? 1.0 / (hazeKm * kMetresPerKilometre) : 0.0; }
   double shellM() const { return std::max(ground->heightM, 1e-4); }
 
   Result<void> begin(Drawing::Impl& drawing, const Frame& frame) {
@@ -165,7 +166,7 @@ struct Renderer::Impl {
     drawing.drawn = frame.options.samples;  // nothing more to draw, should the rest fail
     drawing.frame = frame;
     SWARD_TRY(makeTarget(drawing));
-    drawing.mesh = terrain ? terrain->plan(frame, shellM()) : TerrainMesh();
+    drawing.mesh = terrain ? terrain->plan(frame, shellM(), hazePerM()) : TerrainMesh();
     drawing.plan =
         terrain ? planTerrainBlocks(frame, relit->hasBlades()) : planBlocks(frame, *ground, relit->hasBlades());
     SWARD_TRY(relit->setMode(frame.mode, *ground));

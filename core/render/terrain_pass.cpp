@@ -11,7 +11,9 @@ namespace sward::render {
 namespace {
 
 constexpr double kNearM = 0.05;
-constexpr double kErrorPixels = 2.5;    ///< of the levels of detail; bounds are some three times the real errors
+constexpr double kErrorPixels = 5.0;  ///< of the levels of detail; bounds are some three times the real errors
+constexpr double kHazeDepths = 6.0;   ///< of haze that hide all but a four hundredth
+constexpr double kLeastFarM = 2000.0;
 constexpr int kMaxGroundTexels = 2048;  ///< along a side of the texture of slopes
 constexpr double kLeastOverGroundM = 1e-3;
 constexpr GLuint kFirstUnit = 5;  ///< below are those of the ground pass
@@ -70,7 +72,7 @@ void TerrainPass::setSun(const glm::dvec3& toSun) {
   m_ground.write(GL_RGBA, GL_FLOAT, texels.data());
 }
 
-TerrainMesh TerrainPass::plan(const Frame& frame, double heightM) const {
+TerrainMesh TerrainPass::plan(const Frame& frame, double heightM, double hazePerM) const {
   TerrainMesh mesh;
   mesh.eye = frame.camera.position;
   const double ground = field().height(glm::dvec2(mesh.eye));
@@ -81,6 +83,7 @@ TerrainMesh TerrainPass::plan(const Frame& frame, double heightM) const {
   view.planes = viewPlanes(frame, mesh.eye);
   view.errorAngle = kErrorPixels * pixelAngle(frame);
   view.liftM = heightM;
+  if (hazePerM > 0.0) view.farM = std::clamp(kHazeDepths / hazePerM, kLeastFarM, view.farM);
   std::vector<glm::vec3> vertices;
   std::vector<std::uint32_t> indices;
   for (const terrain::LodChunk& chunk : m_tree->select(view)) {

@@ -31,7 +31,8 @@ class TerrainPass {
   /// The shadows of the hills under another sun; uploads them with the slopes.
   void setSun(const glm::dvec3& toSun);
 
-  TerrainMesh plan(const Frame& frame, double heightM) const;
+  /// The mesh ends where haze hides it, 32 km away at most.
+  TerrainMesh plan(const Frame& frame, double heightM, double hazePerM) const;
   /// Draws the distances of one sample; leaves another framebuffer bound. `jitter`: the sample's place in its pixel, in
   /// [-1, 1] over the picture. The caller's scissor holds.
   Result<void> drawEntries(ProgramCache& programs, const Frame& frame, const TerrainMesh& mesh, double heightM,

@@ -146,10 +146,14 @@ void main() {
     float next = inside ? first : texelFetch(t_second, pixel, 0).r;
     // Without a next entry that is far enough behind to be told apart, the first is the last.
     bool last = next <= 0.0 && d.z < -kMeshHorizon;
-    bool soilSeen;
-    seen = marchTerrain(d, inside ? 0.0 : first, last, random, levelJitter, lot, soilSeen);
-    if (!soilSeen && g_transmittance > 0.0 && next > 0.0)
-      seen += marchTerrain(d, next, true, random, levelJitter, lot, soilSeen);
+    float enter = inside ? 0.0 : first;
+    for (int i = 0; i < 2; ++i) {
+      bool soilSeen;
+      seen += marchTerrain(d, enter, last, random, levelJitter, lot, soilSeen);
+      if (soilSeen || g_transmittance <= 0.0 || next <= 0.0) break;
+      enter = next;
+      last = true;
+    }
   }
 #if SWARD_MODE
   o_radiance = vec4(seen * v_exposure, (1.0 - g_transmittance) * u_sampleWeight);

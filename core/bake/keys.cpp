@@ -1,6 +1,7 @@
 #include "bake/keys.h"
 
 #include "bake/plants.h"
+#include "bake/withering.h"
 #include "project/value_hash.h"
 
 #include <algorithm>
@@ -58,6 +59,17 @@ Result<PlantHash> plantHash(const project::Project& project, const project::Plan
   return PlantHash{hashRole(Role::Shape), hashRole(Role::Colour)};
 }
 
+/// What withering does to the plants' forms and colours; nothing to plants that stand as they grew.
+void addWithering(const project::Project& project, Role role, Hasher& hasher) {
+  if (!withers(project)) return;
+  const wither::WitherOptions& wither = project.wither;
+  hasher.add(std::string_view("wither")).add(wither.weathering).add(wither.mingle.size());
+  project::hashValues(hasher, wither.ageing, role);
+  project::hashValues(hasher, wither.body, role);
+  for (const wither::MingleSample& sample : wither.mingle) project::hashValues(hasher, sample, role);
+  project::hashValues(hasher, project.leaf, role);
+}
+
 struct PatchHash {
   Hash128 shape, colour, soil;
   std::vector<Hash128> plants;
@@ -69,10 +81,15 @@ Result<PatchHash> patchHash(const project::Project& project, AssetHashes& assets
   shape.add(project.patch.sideM).add(project.patch.seed).add(project.patch.plants.size());
   for (std::size_t i = 0; i < project.patch.plants.size(); ++i) {
     SWARD_ASSIGN(const PlantHash plant, plantHash(project, project.patch.plants[i], assets));
-    plants.push_back(start("model", kPatchVersion).add(plant.shape).add(plant.colour).finish());
+    Hasher model = start("model", kPatchVersion);
+    model.add(plant.shape).add(plant.colour);
+    for (const Role role : {Role::Shape, Role::Colour}) addWithering(project, role, model);
+    plants.push_back(model.finish());
     shape.add(plantCount(project, i)).add(plant.shape);
     colour.add(plant.colour);
   }
+  addWithering(project, Role::Shape, shape);
+  addWithering(project, Role::Colour, colour);
   Hasher soil = start("soil", kSurfaceVersion);
   soil.add(project.patch.sideM).add(project.patch.seed);
   project::hashValues(soil, project.patch.soil, Role::Colour);
@@ -196,6 +213,16 @@ lpt::FitOptions stackOptionsOf(const project::Project& project, trace::LayerSet 
   return options;
 }
 
+namespace {
+
+bool sameWithering(const project::Project& a, const project::Project& b) {
+  if (!withers(a) && !withers(b)) return true;
+  return a.wither.weathering == b.wither.weathering && a.wither.ageing == b.wither.ageing &&
+         a.wither.body == b.wither.body && a.wither.mingle == b.wither.mingle && a.leaf == b.leaf;
+}
+
+}  // namespace
+
 bool sameGroundValues(const project::Project& a, const project::Project& b) {
   const auto samePlant = [](const project::Plant& p, project::Plant q) {
     q.name = p.name;
@@ -203,7 +230,7 @@ bool sameGroundValues(const project::Project& a, const project::Project& b) {
   };
   return a.folder == b.folder && a.patch.sideM == b.patch.sideM && a.patch.seed == b.patch.seed &&
          a.patch.soil == b.patch.soil && a.lights == b.lights && a.sampling == b.sampling && a.fit == b.fit &&
-         a.tiles == b.tiles && (!lpt::needsSun(a.fit.basis) || a.sun == b.sun) &&
+         a.tiles == b.tiles && sameWithering(a, b) && (!lpt::needsSun(a.fit.basis) || a.sun == b.sun) &&
          std::equal(a.patch.plants.begin(), a.patch.plants.end(), b.patch.plants.begin(), b.patch.plants.end(),
                     samePlant);
 }

@@ -107,7 +107,7 @@ Result<std::shared_ptr<const scene::Patch>> Session::patch() {
   key.add("instances").add(m_keys.patch).add(m_keys.of(LayerSet::Slices).surface);
   return node<scene::Patch>("patch", "", key.finish(), Keep::Memory, [&](const JobContext&) -> Result<scene::Patch> {
     SWARD_ASSIGN(scene::Patch grown,
-                 growPatch(m_project, [this](std::size_t plant, int variant) { return model(plant, variant); }));
+                 growPatch(m_project, [this](std::size_t plant, int index) { return model(plant, index); }));
     for (const auto& model : grown.models) {
       for (const std::string& warning : model->warnings) m_report.warnings.push_back(warning);
     }
@@ -116,13 +116,13 @@ Result<std::shared_ptr<const scene::Patch>> Session::patch() {
 }
 
 /// Models from files are read once for as long as they fit in memory: reading takes longer than growing grass.
-Result<std::shared_ptr<const mesh::Model>> Session::model(std::size_t plant, int variant) {
+Result<std::shared_ptr<const mesh::Model>> Session::model(std::size_t plant, int index) {
   const bool remembered = m_project.patch.plants[plant].kind == project::PlantKind::Gltf;
-  const base::Hash128& key = m_keys.plants[plant];
+  const base::Hash128 key = base::Hasher().add(m_keys.plants[plant]).add(index).finish();
   if (remembered) {
     if (auto known = m_memory.get<mesh::Model>(key)) return known;
   }
-  SWARD_ASSIGN(mesh::Model made, plantModel(m_project, plant, variant));
+  SWARD_ASSIGN(mesh::Model made, patchModel(m_project, plant, index));
   auto shared = std::make_shared<const mesh::Model>(std::move(made));
   if (remembered) m_memory.put(key, shared, memoryBytes(*shared));
   return shared;

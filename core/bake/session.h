@@ -69,7 +69,7 @@ class Session {
   JobContext jobOf(std::size_t node) const;
 
   Result<Shared<scene::Patch>> patch();
-  Result<Shared<mesh::Model>> model(std::size_t plant, int variant);
+  Result<Shared<mesh::Model>> model(std::size_t plant, int index);
   Result<const trace::PatchScene*> scene();
   Result<const trace::TriangleField*> field();
   Result<const trace::CanopyLight*> canopy();

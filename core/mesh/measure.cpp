@@ -1,60 +1,15 @@
 #include "mesh/measure.h"
 
+#include "mesh/parts.h"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <numeric>
-#include <utility>
 
 namespace sward::mesh {
 namespace {
-
-/// Vertices by their place: files split them where normals or texture coordinates differ.
-std::vector<std::uint32_t> weld(const Model& model) {
-  std::map<std::array<float, 3>, std::uint32_t> first;
-  std::vector<std::uint32_t> welded;
-  welded.reserve(model.positions.size());
-  for (const glm::vec3& p : model.positions) {
-    const auto next = static_cast<std::uint32_t>(first.size());
-    welded.push_back(first.try_emplace({p.x, p.y, p.z}, next).first->second);
-  }
-  return welded;
-}
-
-std::uint32_t rootOf(std::vector<std::uint32_t>& parents, std::uint32_t vertex) {
-  while (parents[vertex] != vertex) vertex = parents[vertex] = parents[parents[vertex]];
-  return vertex;
-}
-
-/// Triangles that share places of vertices.
-struct Parts {
-  std::vector<std::uint32_t> ofTriangle;
-  std::vector<bool> open;  ///< by part; parts are named by one of their welded vertices
-};
-
-Parts findParts(const Model& model) {
-  const std::vector<std::uint32_t> welded = weld(model);
-  std::vector<std::uint32_t> parents(welded.size());
-  std::iota(parents.begin(), parents.end(), 0u);
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;  // of an undirected edge's two directions
-  for (const glm::uvec3& triangle : model.triangles) {
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t a = welded[triangle[i]], b = welded[triangle[(i + 1) % 3]];
-      parents[rootOf(parents, a)] = rootOf(parents, b);
-      if (a != b) balance[std::minmax(a, b)] += a < b ? 1 : -1;
-    }
-  }
-  Parts parts{{}, std::vector<bool>(welded.size(), false)};
-  for (const auto& [edge, sum] : balance) {
-    if (sum != 0) parts.open[rootOf(parents, edge.first)] = true;
-  }
-  parts.ofTriangle.reserve(model.triangles.size());
-  for (const glm::uvec3& triangle : model.triangles) parts.ofTriangle.push_back(rootOf(parents, welded[triangle.x]));
-  return parts;
-}
 
 /// Coverage of a triangle and its luminance times coverage, as means over a lattice of its points.
 struct Seen {

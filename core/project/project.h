@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/result.h"
+#include "leaf/options.h"
 #include "lpt/options.h"
 #include "mesh/options.h"
 #include "render/options.h"
@@ -9,6 +10,7 @@
 #include "terrain/options.h"
 #include "tiles/options.h"
 #include "trace/options.h"
+#include "wither/options.h"
 
 #include <filesystem>
 #include <string>
@@ -67,6 +69,8 @@ struct Project {
   trace::SamplingOptions sampling;
   lpt::FitOptions fit;
   tiles::TileOptions tiles;
+  leaf::LeafOptions leaf;
+  wither::WitherOptions wither;
   terrain::TerrainOptions terrain;
   scene::SunOptions sun;
   scene::SkyOptions sky;

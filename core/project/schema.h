@@ -3,6 +3,7 @@
 #include "project/schema_bake.h"
 #include "project/schema_plants.h"
 #include "project/schema_scene.h"
+#include "project/schema_wither.h"
 
 /// The one description of every field of a project: its name in the file, its range with a unit, what it decides, and
 /// its label and help for people. Reading, writing, range checks, unknown keys, paths in messages, bake keys, the
@@ -30,6 +31,9 @@ void describe(A& a, typename A::template Ref<Project> v) {
           of(Role::Shape).says("Sampling", "How finely the patch is cut into layers and texels."));
   a.field("fit", v.fit, of(Role::Shape).says("Relighting", "How the answer to light is fitted and stored."));
   a.field("tiles", v.tiles, of(Role::Shape).says("Tiles", "How the patch is cut into tiles and laid over the ground."));
+  a.field("leaf", v.leaf, of(Role::Colour).says("Leaf colour", "What leaves contain, and how they dry to straw."));
+  a.field("wither", v.wither,
+          of(Role::Shape).says("Withering", "How the sward goes from green to straw through an autumn."));
   a.field("terrain", v.terrain,
           of(Role::Shape).says("Terrain", "Hills and heightmaps under the grass. Nothing is baked anew."));
   a.field("sun", v.sun,

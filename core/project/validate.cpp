@@ -306,6 +306,38 @@ void checkTerrain(const Project& project, Problems& out) {
   }
 }
 
+void checkNeverFalls(const base::Curve& curve, const std::string& where, Problems& out) {
+  const auto& points = curve.points();
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (points[i].y >= points[i - 1].y) continue;
+    return out.error(where,
+                     "it falls from " + number(points[i - 1].y) + " at " + number(points[i - 1].x) + " to " +
+                         number(points[i].y) + " at " + number(points[i].x),
+                     "Weathering may rest but never go back; raise the later point.");
+  }
+}
+
+void checkWither(const wither::WitherOptions& wither, Problems& out) {
+  checkNeverFalls(wither.ageing.weathering, "wither.ageing.weathering", out);
+  double shares = 0.0;
+  for (std::size_t i = 0; i < wither.mingle.size(); ++i) {
+    shares += wither.mingle[i].share;
+    checkNeverFalls(wither.mingle[i].ageing, "wither.mingle[" + std::to_string(i) + "].ageing", out);
+  }
+  if (!wither.mingle.empty() && !(shares > 0.0)) {
+    out.error("wither.mingle", "all shares are 0", "Give at least one sample a share above 0.");
+  }
+  if (wither.body.shrinkVein > wither.body.shrinkMesophyll) {
+    out.error("wither.body.shrinkVein",
+              number(wither.body.shrinkVein) + " is more than shrinkMesophyll's " + number(wither.body.shrinkMesophyll),
+              "Veins keep their water longer: give at most as much.");
+  }
+  if (wither.texel.resolution % 8 != 0) {
+    out.error("wither.texel.resolution", std::to_string(wither.texel.resolution) + " voxels are no multiple of 8",
+              "Give a multiple of 8, such as 64, 128 or 256.");
+  }
+}
+
 void checkViews(const Project& project, Problems& out) {
   if (project.views.empty()) {
     out.warning("views", "the project has no views", "Add one; a default view at eye height is used otherwise.");
@@ -355,6 +387,7 @@ std::vector<Problem> validate(const Project& project) {
   checkSampling(project.sampling, problems);
   checkTileSizes(project, problems);
   checkTileCounts(project, problems);
+  checkWither(project.wither, problems);
   checkTerrain(project, problems);
   checkViews(project, problems);
   checkRest(project, problems);

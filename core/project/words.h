@@ -83,14 +83,29 @@ constexpr auto words(tiles::MapMethod) {
        {tiles::MapMethod::Hashed, "hashed", "Hashed",
         "Each tile follows from its place alone; needs every tile there is."}}};
 }
+constexpr auto words(leaf::LeafOptions::Model) {
+  using Model = leaf::LeafOptions::Model;
+  return std::array<Word<Model>, 2>{
+      {{Model::Plates, "plates", "Plates", "Light through layers that absorb: the truer, and straw is bright."},
+       {Model::Subtraction, "subtraction", "Subtraction", "Light minus what pigments absorb, as first published."}}};
+}
+constexpr auto words(wither::Autumn) {
+  return std::array<Word<wither::Autumn>, 4>{
+      {{wither::Autumn::Normal, "normal", "Normal autumn", "Leaves yellow, then dry and fall."},
+       {wither::Autumn::AmpleWater, "ample_water", "Ample water", "Leaves yellow but keep their water and stand."},
+       {wither::Autumn::LowTemperature, "low_temperature", "Early cold", "Green and water go early and fast."},
+       {wither::Autumn::Custom, "custom", "Own curves", "Water and chlorophyll follow curves of your own."}}};
+}
 constexpr auto words(render::GroundMethod) {
-  return std::array<Word<render::GroundMethod>, 3>{
+  return std::array<Word<render::GroundMethod>, 4>{
       {{render::GroundMethod::March, "march", "March",
         "Follows each ray through the layers, front to back: true parallax, and the fastest."},
        {render::GroundMethod::BlendedNormalised, "blended", "Blended planes",
         "Draws slices and blades as planes over one another, weighted by the view."},
        {render::GroundMethod::BlendedPaper, "blended_paper", "Blended (paper)",
-        "The same with the published weights, for comparison."}}};
+        "The same with the published weights, for comparison."},
+       {render::GroundMethod::Texels, "texels", "Texels",
+        "Marches through a block of voxels, which withers at once; no layers are baked."}}};
 }
 constexpr auto words(render::ViewTransform) {
   return std::array<Word<render::ViewTransform>, 2>{

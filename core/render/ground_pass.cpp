@@ -1,6 +1,7 @@
 #include "render/ground_pass.h"
 
 #include "render/macro_map.h"
+#include "render/pass_view.h"
 #include "scene/ground_look.h"
 
 #include <algorithm>
@@ -66,48 +67,8 @@ SetMask facingSets(const glm::dvec3& d, unsigned families) {
   return sets;
 }
 
-double radicalInverse(unsigned index, unsigned base) {
-  double value = 0.0, digit = 1.0 / base;
-  for (; index > 0; index /= base, digit /= base) value += digit * (index % base);
-  return value;
-}
-
-/// A tent over [-1, 1] from a uniform number (its inverse distribution).
-double tent(double u) {
-  return u < 0.5 ? std::sqrt(2.0 * u) - 1.0 : 1.0 - std::sqrt(2.0 - 2.0 * u);
-}
-
-/// Place of a sample in its pixel, from the centre, in pixels: tent-distributed, so that a plain mean filters with a
-/// tent two pixels wide (Ernst et al. 2006, filter importance sampling).
-glm::dvec2 samplePlace(int sample, int samples) {
-  if (samples <= 1) return glm::dvec2(0.0);
-  const auto index = static_cast<unsigned>(sample + 1);
-  return {tent(radicalInverse(index, 2)), tent(radicalInverse(index, 3))};
-}
-
-/// The generalised golden ratio sequence in three dimensions (Roberts 2018).
-glm::vec3 sampleShift(int sample) {
-  constexpr double g = 1.22074408460575947536;
-  const double n = sample;
-  const auto part = [&](double rate) { return static_cast<float>(n * rate - std::floor(n * rate)); };
-  return {part(1.0 / g), part(1.0 / (g * g)), part(1.0 / (g * g * g))};
-}
-
 double positiveModulo(double value, double period) {
   return value - period * std::floor(value / period);
-}
-
-void setView(gpu::Program& program, const Frame& frame, int sample) {
-  const scene::Camera& camera = frame.camera;
-  const glm::dvec2 scale(2.0 / frame.width, 2.0 / frame.height);
-  const double aspect = static_cast<double>(frame.width) / frame.height;
-  setIfUsed(program, "u_pixelScale", glm::vec2(scale));
-  setIfUsed(program, "u_pixelOffset", glm::vec2(sampleOffset(frame, sample) - 1.0));
-  setIfUsed(program, "u_viewRight", glm::vec3(camera.right * camera.tanHalfWidth));
-  setIfUsed(program, "u_viewUp", glm::vec3(camera.up * (camera.tanHalfWidth / aspect)));
-  setIfUsed(program, "u_viewForward", glm::vec3(camera.forward));
-  setIfUsed(program, "u_sampleShift", sampleShift(sample));
-  setIfUsed(program, "u_pixelAngle", static_cast<float>(2.0 * camera.tanHalfWidth / frame.width));
 }
 
 /// World origin is the south-west corner of the map's middle cell; cells repeat beyond the map. Shaders count cells
@@ -217,10 +178,6 @@ void bindTextures(gpu::Program& program, const PassInput& input, const gpu::Text
 }
 
 }  // namespace
-
-glm::dvec2 sampleOffset(const Frame& frame, int sample) {
-  return samplePlace(sample, frame.options.samples) * glm::dvec2(2.0 / frame.width, 2.0 / frame.height);
-}
 
 BlockPlan planBlocks(const Frame& frame, const bake::GroundBake& ground, bool hasBlades) {
   constexpr int kProbes = 8;  // rays along a block's side, its corners and one pixel around them included

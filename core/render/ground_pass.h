@@ -39,9 +39,6 @@ BlockPlan planBlocks(const Frame& frame, const bake::GroundBake& ground, bool ha
 /// Over a terrain any ray may need anything.
 BlockPlan planTerrainBlocks(const Frame& frame, bool hasBlades);
 
-/// Where in its pixel a sample looks, from the middle, in the picture's [-1, 1].
-glm::dvec2 sampleOffset(const Frame& frame, int sample);
-
 /// Draws the ground and the sky, a variant of the shader for each sort of block.
 class GroundPass {
  public:

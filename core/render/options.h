@@ -8,7 +8,8 @@ namespace sward::render {
 enum class GroundMethod : std::uint8_t {
   March,              ///< front to back through the layers in one pass, parallax, early out
   BlendedNormalised,  ///< slices and blades blended as planes, weights that sum to 1
-  BlendedPaper        ///< the same with the paper's weights
+  BlendedPaper,       ///< the same with the paper's weights
+  Texels              ///< voxels that age, marched front to back, in place of the layers
 };
 enum class ViewTransform : std::uint8_t { Filmic, Standard };
 

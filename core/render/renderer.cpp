@@ -3,9 +3,12 @@
 #include "gpu/objects.h"
 #include "render/ground_pass.h"
 #include "render/macro_map.h"
+#include "render/pass_view.h"
 #include "render/programs.h"
 #include "render/relit_ground.h"
 #include "render/sky_map.h"
+#include "render/texel_pass.h"
+#include "render/texel_set.h"
 #include "render/terrain_pass.h"
 
 #include <algorithm>
@@ -96,15 +99,20 @@ struct Renderer::Impl {
   std::vector<float> pixels;           ///< what was read last: large, and asked for again and again
   std::shared_ptr<const bake::GroundBake> ground;
   std::optional<RelitGround> relit;
+  TexelPass texelPass;
+  std::optional<TexelSet> texels;
+  bool texelsLit = false;
   std::shared_ptr<const terrain::HeightField> field;
   std::optional<TerrainPass> terrain;  ///< of the field, where there is one
   std::optional<scene::Daylight> daylight;
   double hazeKm = 0.0;
   std::uint64_t revision = 1;  ///< of ground and light
 
-  Result<void> ready() {
+  Result<void> ready(GroundMethod method = GroundMethod::March) {
     SWARD_TRY(context.makeCurrent());
-    if (!relit) return Error::failed("no ground was given to the renderer", "render");
+    const bool drawsTexels = method == GroundMethod::Texels;
+    if (drawsTexels && !texels) return Error::failed("no texels were given to the renderer", "render");
+    if (!drawsTexels && !relit) return Error::failed("no ground was given to the renderer", "render");
     if (!daylight) return Error::failed("no daylight was given to the renderer", "render");
     return {};
   }
@@ -157,25 +165,50 @@ struct Renderer::Impl {
             &drawing.mesh};
   }
 
+  TexelPassInput texelInput() const {
+    return {&*texels, &sky, &horizon, daylight->sunDirection(), daylight->sunIrradiance(), hazePerM()};
+  }
+
+  Result<void> lightTexels() {
+    if (texelsLit) return {};
+    SWARD_TRY(texels->relight({daylight->sunDirection(), daylight->sunIrradiance(), daylight->meanSkyRadiance()}, {}));
+    texelsLit = true;
+    return context.checkErrors("lighting the texels");
+  }
+
+  static void clear(const Drawing::Impl& drawing) {
+    constexpr float kBlack[4] = {};
+    gpu::gl().ClearNamedFramebufferfv(drawing.framebuffer.name(), GL_COLOR, 0, kBlack);
+  }
+
+  Result<void> beginTexels(Drawing::Impl& drawing) {
+    if (!drawing.frame.mode.plain()) {
+      return Error::badInput("texels have no view modes", "render.method", "Draw the plain picture, or the layers.");
+    }
+    SWARD_TRY(lightTexels());
+    clear(drawing);
+    drawing.drawn = 0;
+    drawing.revision = revision;
+    return {};
+  }
+
   double hazePerM() const { return hazeKm > 0.0 ? 1.0 / (hazeKm * kMetresPerKilometre) : 0.0; }
   double shellM() const { return std::max(ground->heightM, 1e-4); }
 
   Result<void> begin(Drawing::Impl& drawing, const Frame& frame) {
     SWARD_TRY(checkFrame(frame));
-    SWARD_TRY(ready());
+    SWARD_TRY(ready(frame.options.method));
     drawing.drawn = frame.options.samples;  // nothing more to draw, should the rest fail
     drawing.frame = frame;
     SWARD_TRY(makeTarget(drawing));
+    if (frame.options.method == GroundMethod::Texels) return beginTexels(drawing);
     drawing.mesh = terrain ? terrain->plan(frame, shellM(), hazePerM()) : TerrainMesh();
     drawing.plan =
         terrain ? planTerrainBlocks(frame, relit->hasBlades()) : planBlocks(frame, *ground, relit->hasBlades());
     SWARD_TRY(relit->setMode(frame.mode, *ground));
     SWARD_TRY(relit->relight(programs, drawing.plan.sets));
     makeMap(frame.options);
-    if (frame.options.samples > 1 || frame.columns || !frame.mode.plain()) {
-      constexpr float kBlack[4] = {};
-      gpu::gl().ClearNamedFramebufferfv(drawing.framebuffer.name(), GL_COLOR, 0, kBlack);
-    }
+    if (frame.options.samples > 1 || frame.columns || !frame.mode.plain()) clear(drawing);
     drawing.legend = legendOf(frame.mode, *ground);
     drawing.drawn = 0;
     drawing.revision = revision;
@@ -186,14 +219,18 @@ struct Renderer::Impl {
     const int samples = drawing.frame.options.samples;
     if (drawing.drawn >= samples) return Error::failed("all samples are drawn", "render");
     if (drawing.revision != revision) return Error::failed("ground or light changed within a picture", "render");
-    SWARD_TRY(ready());
+    const bool drawsTexels = drawing.frame.options.method == GroundMethod::Texels;
+    SWARD_TRY(ready(drawing.frame.options.method));
     const Columns columns = drawing.frame.drawn();
-    // Another picture may have been begun in between, in another mode.
-    SWARD_TRY(relit->setMode(drawing.frame.mode, *ground));
-    SWARD_TRY(relit->relight(programs, drawing.plan.sets));
-    if (terrain)
-      SWARD_TRY(terrain->drawEntries(programs, drawing.frame, drawing.mesh, shellM(),
-                                     sampleOffset(drawing.frame, drawing.drawn)));
+    if (!drawsTexels) {
+      // Another picture may have been begun in between, in another mode.
+      SWARD_TRY(relit->setMode(drawing.frame.mode, *ground));
+      SWARD_TRY(relit->relight(programs, drawing.plan.sets));
+      if (terrain) {
+        SWARD_TRY(terrain->drawEntries(programs, drawing.frame, drawing.mesh, shellM(),
+                                       sampleOffset(drawing.frame, drawing.drawn)));
+      }
+    }
     drawing.framebuffer.bind();
     if (samples > 1) {
       gpu::gl().BlendFunc(GL_ONE, GL_ONE);
@@ -203,7 +240,10 @@ struct Renderer::Impl {
       gpu::gl().Scissor(columns.begin, 0, columns.end - columns.begin, drawing.frame.height);
       gpu::gl().Enable(GL_SCISSOR_TEST);
     }
-    Result<void> drawn = pass.draw(programs, input(drawing), drawing.frame, drawing.plan, drawing.drawn, 1.0 / samples);
+    const double weight = 1.0 / samples;
+    Result<void> drawn = drawsTexels
+                             ? texelPass.draw(programs, texelInput(), drawing.frame, drawing.drawn, weight)
+                             : pass.draw(programs, input(drawing), drawing.frame, drawing.plan, drawing.drawn, weight);
     gpu::gl().Disable(GL_BLEND);
     gpu::gl().Disable(GL_SCISSOR_TEST);
     SWARD_TRY(std::move(drawn));
@@ -230,6 +270,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gpu::Context& context) {
   std::unique_ptr<Renderer> renderer(new Renderer());
   renderer->m_impl = std::make_unique<Impl>(context);
   renderer->m_impl->pass = GroundPass::create();
+  renderer->m_impl->texelPass = TexelPass::create();
   SWARD_TRY(context.checkErrors("renderer"));
   return renderer;
 }
@@ -262,6 +303,18 @@ Result<void> Renderer::setTerrain(std::shared_ptr<const terrain::HeightField> fi
   return impl.context.checkErrors("uploading the terrain");
 }
 
+Result<void> Renderer::setTexels(std::shared_ptr<const bake::TexelBake> texels) {
+  Impl& impl = *m_impl;
+  SWARD_TRY(impl.context.makeCurrent());
+  impl.texels.reset();
+  SWARD_ASSIGN(TexelSet set, TexelSet::create(std::move(texels)));
+  SWARD_TRY(impl.context.checkErrors("uploading the texels"));
+  impl.texels = std::move(set);
+  impl.texelsLit = false;
+  ++impl.revision;
+  return {};
+}
+
 Result<void> Renderer::setInspection(const bake::Inspection& inspection) {
   Impl& impl = *m_impl;
   SWARD_TRY(impl.context.makeCurrent());
@@ -280,6 +333,7 @@ void Renderer::setDaylight(const scene::Daylight& daylight, double hazeKm) {
   impl.sky = makeSkyTexture(daylight);
   impl.horizonValues = makeHorizonBuffer(daylight);
   impl.horizon = gpu::Texture::ofBuffer(GL_RGBA32F, impl.horizonValues);
+  impl.texelsLit = false;
   if (impl.relit) impl.relit->setIllumination(illuminationOf(daylight));
   if (impl.terrain) impl.terrain->setSun(daylight.sunDirection());
 }

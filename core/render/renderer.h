@@ -2,6 +2,7 @@
 
 #include "bake/ground_bake.h"
 #include "bake/inspection.h"
+#include "bake/texel_bake.h"
 #include "base/result.h"
 #include "gpu/context.h"
 #include "image/bytes.h"
@@ -67,6 +68,9 @@ class Renderer {
   /// the ground is raised to it. The blended methods draw as the march does. Shadows of the hills follow setDaylight().
   /// Takes some 100 ms for a field of 1024 x 1024.
   Result<void> setTerrain(std::shared_ptr<const terrain::HeightField> field);
+  /// What GroundMethod::Texels draws in place of the ground; replaces the texels before. An error when the GPU has no
+  /// room.
+  Result<void> setTexels(std::shared_ptr<const bake::TexelBake> texels);
   /// What the view modes Visibility and Condition show of the ground; the next setGround() forgets it. Errors: it
   /// belongs to another ground.
   Result<void> setInspection(const bake::Inspection& inspection);

@@ -2,6 +2,7 @@
 #include "commands.h"
 #include "methods.h"
 
+#include "bake/texel_baker.h"
 #include "gpu/context.h"
 #include "image/io.h"
 #include "project/limits.h"
@@ -22,6 +23,7 @@ struct RenderRequest {
   std::string project, output, view, size, sun, maxError, device = "auto";
   std::vector<std::string> methods;
   std::optional<int> samples;
+  std::optional<double> weathering;
   double exposureEv = 0.0;
 };
 
@@ -109,6 +111,7 @@ Result<RenderPlan> planRender(const Program& program, const RenderRequest& reque
   SWARD_TRY(applyMethods(request.methods, project));
   SWARD_TRY(applySize(request.size, project));
   SWARD_TRY(applySun(request.sun, project));
+  if (request.weathering) project.wither.weathering = *request.weathering;
   if (request.samples) project.render.samples = *request.samples;
   if (!request.maxError.empty()) {
     SWARD_ASSIGN(project.accuracy, report::parseAccuracy(request.maxError));
@@ -130,12 +133,22 @@ struct RenderTimes {
   double start = 0.0, bake = 0.0, upload = 0.0, draw = 0.0, write = 0.0;
 };
 
-Result<image::Image> drawPicture(Program& program, const RenderPlan& plan, gpu::Context& context,
-                                 std::shared_ptr<const bake::GroundBake> ground, RenderTimes& times) {
+/// What is drawn: one of the two.
+struct Baked {
+  std::shared_ptr<const bake::GroundBake> ground;
+  std::shared_ptr<const bake::TexelBake> texels;
+};
+
+Result<image::Image> drawPicture(Program& program, const RenderPlan& plan, gpu::Context& context, Baked baked,
+                                 RenderTimes& times) {
   StopWatch watch;
   SWARD_ASSIGN(const auto renderer, render::Renderer::create(context));
-  SWARD_TRY(renderer->setGround(std::move(ground)));
-  if (plan.terrain) SWARD_TRY(renderer->setTerrain(plan.terrain));
+  if (baked.texels) {
+    SWARD_TRY(renderer->setTexels(std::move(baked.texels)));
+  } else {
+    SWARD_TRY(renderer->setGround(std::move(baked.ground)));
+    if (plan.terrain) SWARD_TRY(renderer->setTerrain(plan.terrain));
+  }
   times.upload = watch.lap();
   renderer->setDaylight(plan.daylight, plan.project.sky.hazeKm);
   if (program.interrupts.requested()) return Error::cancelled();
@@ -144,6 +157,12 @@ Result<image::Image> drawPicture(Program& program, const RenderPlan& plan, gpu::
   times.draw = watch.lap();
   if (program.interrupts.requested()) return Error::cancelled();
   return picture;
+}
+
+std::string texelText(const bake::TexelReport& made) {
+  return "made texels of " + std::to_string(made.voxels) + " voxels from " + std::to_string(made.points) +
+         " points: grown in " + secondsText(made.restSeconds) + ", aged in " + secondsText(made.ageSeconds) +
+         ", levels and skylight in " + secondsText(made.levelSeconds);
 }
 
 Json resultJson(const RenderPlan& plan, const gpu::DeviceInfo& device, const RenderTimes& times,
@@ -172,17 +191,23 @@ Result<int> runRender(Program& program, const RenderRequest& request) {
   SWARD_ASSIGN(const auto choice, chooseBake(program, plan.project, {plan.view}, *context));
   times.start = watch.lap();
   bake::BakeReport baked;
-  std::shared_ptr<const bake::GroundBake> ground;
-  {
+  Baked scene;
+  if (plan.project.render.method == render::GroundMethod::Texels) {
+    bake::TexelBaker baker;
+    ProgressBar bar(program);
+    bake::TexelReport made;
+    SWARD_ASSIGN(scene.texels, baker.texels(plan.project, 0, bar.job(), &made));
+    say(program, texelText(made));
+  } else {
     // The baker goes before the picture is drawn: its memory cache is of no more use.
     bake::Baker baker = openBaker(program);
     ProgressBar bar(program);
-    SWARD_ASSIGN(ground, baker.ground(plan.project, bar.job(), &baked));
+    SWARD_ASSIGN(scene.ground, baker.ground(plan.project, bar.job(), &baked));
   }
   times.bake = watch.lap();
   for (const std::string& warning : baked.warnings) warn(program, warning);
   say(program, bakeText(baked));
-  SWARD_ASSIGN(const image::Image picture, drawPicture(program, plan, *context, std::move(ground), times));
+  SWARD_ASSIGN(const image::Image picture, drawPicture(program, plan, *context, std::move(scene), times));
   watch.lap();
   {
     const auto writing = program.interrupts.writing();
@@ -230,6 +255,11 @@ void addRenderCommand(CLI::App& app, Program& program) {
       ->add_option("--max-error", request->maxError,
                    "Bake the cheapest that keeps this error in the view: rmse, psnr, ssim or flip, such as rmse=0.1")
       ->type_name("METRIC=BOUND");
+  command
+      ->add_option("--weathering", request->weathering,
+                   "How far the autumn has gone, 0 (green) to 1 (straw) [the project's]")
+      ->type_name("W")
+      ->check(CLI::Range(0.0, 1.0));
   command->add_option("--device", request->device, "OpenGL: auto, egl or osmesa [auto]")->type_name("D");
   command->add_option("--spp", request->samples, "Samples a pixel [the project's]")
       ->type_name("N")

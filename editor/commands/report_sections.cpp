@@ -4,6 +4,7 @@
 #include "project/nearest.h"
 #include "report/section_fit.h"
 #include "report/section_grassland.h"
+#include "report/section_leaf_colour.h"
 #include "report/section_quantisation.h"
 #include "report/section_relight.h"
 #include "report/section_stability.h"
@@ -86,6 +87,7 @@ std::vector<SectionEntry> reportSections(const Program& program, const std::stri
       {"tiles", "what seams cost, and how much maps and pictures repeat", report::tilesSection, 15.0},
       {"grassland", "drawing methods against the ray-traced meadow, and what each step costs", report::grasslandSection,
        80.0},
+      {"leaf_colour", "leaves that age: two models against measured leaves", report::leafColourSection, 3.0},
       {"stability", "fits of degenerate input against a long-double oracle", report::stabilitySection, 3.0},
   };
 }

@@ -28,16 +28,20 @@ const std::map<std::string, std::set<std::string>>& allowedIncludes() {
       {"image", {"base"}},
       {"mesh", {"base", "image"}},
       {"scene", {"base", "image", "mesh"}},
-      {"terrain", upToScene},
       {"trace", upToScene},
+      {"leaf", {"base", "image"}},
+      {"terrain", upToScene},
+      {"wither", with(upToScene, {"trace", "leaf"})},
       {"lpt", with(upToScene, {"trace"})},
       {"tiles", with(upToScene, {"trace", "lpt"})},
       {"project", {"base"}},
-      {"bake", with(upToScene, {"trace", "lpt", "tiles", "project"})},
+      {"bake", with(upToScene, {"trace", "lpt", "tiles", "project", "leaf", "terrain", "wither"})},
       {"gpu", {"base", "image"}},
-      {"render", with(upToScene, {"terrain", "trace", "lpt", "tiles", "project", "bake", "gpu"})},
-      {"export", with(upToScene, {"terrain", "trace", "lpt", "tiles", "project", "bake", "gpu", "render"})},
-      {"report", with(upToScene, {"terrain", "trace", "lpt", "tiles", "project", "bake", "gpu", "render"})},
+      {"render", with(upToScene, {"trace", "leaf", "terrain", "wither", "lpt", "tiles", "project", "bake", "gpu"})},
+      {"export",
+       with(upToScene, {"trace", "leaf", "terrain", "wither", "lpt", "tiles", "project", "bake", "gpu", "render"})},
+      {"report",
+       with(upToScene, {"trace", "leaf", "terrain", "wither", "lpt", "tiles", "project", "bake", "gpu", "render"})},
   };
   return allowed;
 }
@@ -108,6 +112,7 @@ TEST(Layout, HeavyLibrariesStayInTheirFolders) {
       {"tiny_gltf.h", {"mesh"}},
       {"OpenImageIO/", {"image"}},
       {"Eigen/", {"trace", "lpt", "report"}},
+      {"openvdb/", {"export"}},
   };
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(SWARD_SOURCE_DIR) / "core")) {
     if (!isSource(entry.path())) continue;

@@ -42,7 +42,8 @@ inline Json changed(const Json& value) {
   for (const auto& word :
        {swapTo(PlantKind{}), swapTo(scene::LightPattern{}), swapTo(lpt::Basis{}), swapTo(tiles::SeamMethod{}),
         swapTo(tiles::SeamDomain{}), swapTo(tiles::MapMethod{}), swapTo(render::GroundMethod{}),
-        swapTo(render::ViewTransform{}), swapTo(report::ErrorBound{}), swapTo(terrain::Source{})}) {
+        swapTo(render::ViewTransform{}), swapTo(report::ErrorBound{}), swapTo(terrain::Source{}),
+        swapTo(wither::Autumn{}), swapTo(leaf::LeafOptions::Model{})}) {
     if (word) return *word;
   }
   return Json(text + "x");

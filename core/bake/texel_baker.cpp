@@ -1,0 +1,172 @@
+#include "bake/texel_baker.h"
+
+#include "bake/asset_hashes.h"
+#include "bake/keys.h"
+#include "bake/plants.h"
+#include "bake/soil.h"
+#include "bake/withering.h"
+#include "wither/extinction.h"
+#include "wither/points.h"
+#include "wither/pose.h"
+#include "wither/texel_lod.h"
+#include "wither/voxelise.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace sward::bake {
+namespace {
+
+constexpr int kCoarsest = 8;     ///< columns of the coarsest level: a voxel is then as wide as a tuft
+constexpr int kSkyColumns = 64;  ///< levels up to this march to the sky, finer ones look it up
+/// Bent blades and the round of a splat's edge reach a little over the tallest plant.
+constexpr double kHeadroom = 1.02;
+
+/// A project whose plants stand as they grew.
+project::Project atRest(const project::Project& project) {
+  project::Project rest = project;
+  rest.wither.weathering = 0.0;
+  rest.wither.mingle.clear();
+  return rest;
+}
+
+/// What every weathering degree is aged from.
+struct Rest {
+  base::Hash128 key;
+  double sideM = 1.0, heightM = 1.0;
+  wither::TexelGrid grid;
+  std::vector<wither::Strand> strands;
+  wither::Points points;
+  std::vector<glm::vec3> soil;
+};
+
+Result<base::Hash128> restKey(const project::Project& project, int columns, AssetHashes& assets) {
+  SWARD_ASSIGN(const GroundKeys keys, groundKeys(atRest(project), {}, {}, assets));
+  base::Hasher hasher;
+  hasher.add(std::string_view("texel")).add(keys.patch).add(keys.of(trace::LayerSet::Slices).surface);
+  hasher.add(keys.of(trace::LayerSet::Ground).surface).add(columns).add(project.wither.texel.proportion);
+  hasher.add(project.wither.ageing.variation).add(project.wither.body.droopVariation);
+  for (const wither::MingleSample& sample : project.wither.mingle) hasher.add(sample.share);
+  return hasher.finish();
+}
+
+/// A leaf at the grid's top is splatted into layers above it.
+Result<Rest> makeRest(const project::Project& project, int columns, const base::Hash128& key, const JobContext& job) {
+  Rest rest;
+  rest.key = key;
+  SWARD_ASSIGN(const scene::Patch patch, growPatch(atRest(project)));
+  rest.sideM = patch.sideM;
+  rest.heightM = patch.heightM * kHeadroom;
+  rest.grid = texelGridOf(rest.sideM, rest.heightM, columns);
+  SWARD_ASSIGN(wither::PatchStrands strands, wither::strandsOf(patch, project.wither, project.patch.seed));
+  SWARD_ASSIGN(const wither::VoxelisedPatch voxels, wither::voxelise(patch, rest.grid, &strands, job));
+  SWARD_ASSIGN(rest.points, wither::texelToPoints(voxels.texel, voxels.attachments, strands.strands,
+                                                  project.wither.texel.proportion, project.patch.seed, job));
+  rest.strands = std::move(strands.strands);
+  SWARD_ASSIGN(rest.soil, soilColours(project, columns));
+  return rest;
+}
+
+/// Splatting is linear: samples that are denser than their share are mingled by the leaf area of their points.
+void scaleByDensity(const project::Project& project, const std::vector<wither::Strand>& strands,
+                    wither::Points& points) {
+  const auto& samples = project.wither.mingle;
+  if (samples.empty()) return;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::int32_t strand = points.attachments[i].strand;
+    if (strand < 0) continue;
+    const int sample = strands[static_cast<std::size_t>(strand)].sample;
+    points.areaM2[i] *= static_cast<float>(samples[static_cast<std::size_t>(sample)].density);
+  }
+}
+
+Result<std::vector<TexelBake::Level>> makeLevels(wither::Texel finest, const JobContext& job) {
+  SWARD_ASSIGN(std::vector<wither::Texel> texels, wither::levels(finest, kCoarsest, job));
+  std::vector<TexelBake::Level> levels(texels.size());
+  for (std::size_t i = texels.size(); i-- > 0;) {
+    levels[i].texel = std::make_shared<const wither::Texel>(std::move(texels[i]));
+    const wither::Texel& texel = *levels[i].texel;
+    if (texel.grid().columns <= kSkyColumns || i + 1 == levels.size()) {
+      SWARD_ASSIGN(levels[i].sky, wither::marchedSky(texel, job));
+    } else {
+      SWARD_ASSIGN(levels[i].sky, wither::finerSky(texel, *levels[i + 1].texel, levels[i + 1].sky, job));
+    }
+  }
+  return levels;
+}
+
+double secondsSince(std::chrono::steady_clock::time_point& start) {
+  const auto now = std::chrono::steady_clock::now();
+  return std::chrono::duration<double>(now - std::exchange(start, now)).count();
+}
+
+}  // namespace
+
+struct TexelBaker::Impl {
+  AssetHashes assets;
+  std::vector<Rest> held;  ///< the last kHeld: a preview and the full size
+  static constexpr std::size_t kHeld = 2;
+  wither::Points moved;
+
+  Result<const Rest*> rest(const project::Project& project, int columns, const JobContext& job) {
+    SWARD_ASSIGN(const base::Hash128 key, restKey(project, columns, assets));
+    const auto found = std::find_if(held.begin(), held.end(), [&](const Rest& rest) { return rest.key == key; });
+    if (found != held.end()) {
+      std::rotate(held.begin(), found, found + 1);
+      return &held.front();
+    }
+    SWARD_ASSIGN(Rest made, makeRest(project, columns, key, job));
+    held.insert(held.begin(), std::move(made));
+    if (held.size() > kHeld) held.resize(kHeld);
+    return &held.front();
+  }
+};
+
+TexelBaker::TexelBaker() : m_impl(std::make_unique<Impl>()) {}
+TexelBaker::~TexelBaker() = default;
+TexelBaker::TexelBaker(TexelBaker&&) noexcept = default;
+TexelBaker& TexelBaker::operator=(TexelBaker&&) noexcept = default;
+
+wither::TexelGrid texelGridOf(double sideM, double heightM, int columns) {
+  constexpr int kBrick = wither::TexelGrid::kBrick;
+  const double bricks = heightM / sideM * columns / kBrick;
+  wither::TexelGrid grid;
+  grid.columns = columns;
+  // Levels halve the layers with the columns, down to whole bricks: a power of two of them where it costs little.
+  grid.layers = kBrick * std::clamp(static_cast<int>(std::ceil(bricks)), 1, 4096 / kBrick);
+  grid.sideM = sideM;
+  grid.heightM = heightM;
+  return grid;
+}
+
+Result<std::shared_ptr<const TexelBake>> TexelBaker::texels(const project::Project& project, int columns,
+                                                            const JobContext& job, TexelReport* report) {
+  SWARD_TRY(project::requireValid(project));
+  auto start = std::chrono::steady_clock::now();
+  SWARD_ASSIGN(const Rest* rest, m_impl->rest(project, columns > 0 ? columns : project.wither.texel.resolution, job));
+  TexelReport done;
+  done.restSeconds = secondsSince(start);
+  SWARD_ASSIGN(const Ageing ageing, ageingOf(project));
+  wither::Points& moved = m_impl->moved;
+  moved = {};
+  SWARD_TRY(wither::pose(rest->points, rest->strands, ageing.season, project.wither.mingle, project.wither.weathering,
+                         ageing.colour, moved, job));
+  scaleByDensity(project, rest->strands, moved);
+  SWARD_ASSIGN(wither::Texel finest, wither::pointsToTexel(moved, rest->grid, project.wither.texel.splatVoxels, job));
+  done.ageSeconds = secondsSince(start);
+  TexelBake bake;
+  bake.weathering = project.wither.weathering;
+  bake.soil = rest->soil;
+  done.points = rest->points.size();
+  done.voxels = finest.size();
+  SWARD_ASSIGN(bake.levels, makeLevels(std::move(finest), job));
+  done.levelSeconds = secondsSince(start);
+  for (const TexelBake::Level& level : bake.levels) done.bytes += level.texel->bytes();
+  if (report != nullptr) *report = done;
+  return std::make_shared<const TexelBake>(std::move(bake));
+}
+
+}  // namespace sward::bake

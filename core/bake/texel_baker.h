@@ -1,0 +1,46 @@
+#pragma once
+
+#include "bake/texel_bake.h"
+#include "base/job.h"
+#include "base/result.h"
+#include "project/project.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace sward::bake {
+
+/// What a texel cost.
+struct TexelReport {
+  double restSeconds = 0.0;   ///< growing, voxelising, points: what no curve changes; 0 when it was held
+  double ageSeconds = 0.0;    ///< ageing the points and making voxels of them
+  double levelSeconds = 0.0;  ///< coarser levels and skylight
+  std::size_t points = 0, voxels = 0;
+  std::uint64_t bytes = 0;  ///< of the levels, in memory
+};
+
+/// Makes the texels of projects and remembers what the last one is aged from, so that curves, mingling and the
+/// weathering degree change a texel without growing or voxelising anything anew. Not thread-safe: one per thread of
+/// work.
+class TexelBaker {
+ public:
+  TexelBaker();
+  ~TexelBaker();
+  TexelBaker(TexelBaker&&) noexcept;
+  TexelBaker& operator=(TexelBaker&&) noexcept;
+
+  /// The texels of a valid project at its weathering degree. `columns`: voxels along a side, a multiple of 8; 0: the
+  /// project's. Errors: a missing asset; more voxels than memory allows (remedy: resolution); Error::cancelled().
+  Result<std::shared_ptr<const TexelBake>> texels(const project::Project& project, int columns, const JobContext& job,
+                                                  TexelReport* report = nullptr);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> m_impl;
+};
+
+/// The grid of a project's texel: its patch, voxels as nearly cubes as whole bricks allow.
+wither::TexelGrid texelGridOf(double sideM, double heightM, int columns);
+
+}  // namespace sward::bake

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "base/job.h"
+#include "base/result.h"
+#include "wither/texel.h"
+
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace sward::wither {
+
+/// What lights a texel: a sun without a size and a sky of one radiance.
+struct TexelLight {
+  glm::dvec3 toSun{0.0, 0.0, 1.0};  ///< unit
+  glm::dvec3 sunIrradiance{0.0};    ///< on a plane that faces the sun, linear RGB
+  glm::dvec3 skyRadiance{0.0};      ///< mean over the upper hemisphere
+};
+
+/// How much of the sky the sides of a texel's voxels see, whatever the light: cosine-weighted shares of the upper
+/// hemisphere over the side that the normal points to and over the other (of a leaf in the open, of normal n:
+/// (1 + n.z) / 2 and (1 - n.z) / 2); and of the ground under every column.
+struct TexelSky {
+  std::vector<float> front, back;  ///< one a voxel
+  std::vector<float> ground;       ///< [y][x]
+};
+/// Marches fifteen directions of the upper hemisphere (equal cosine-weighted parts, the same for every voxel). Errors:
+/// Error::cancelled().
+Result<TexelSky> marchedSky(const Texel& texel, const JobContext& job);
+/// The same of a finer level, looked up in a coarser one's: skylight changes slowly from place to place, and each leaf
+/// keeps its own inclination. Errors: the grids are no levels of one texel; Error::cancelled().
+Result<TexelSky> finerSky(const Texel& texel, const Texel& coarse, const TexelSky& coarseSky, const JobContext& job);
+
+/// Radiance that a voxel's leaves send to an eye on their normal's side and on the other: sunlight that marched through
+/// the texel to them (transmittance exp(-tau), science.md section 1), reflected where the sun stands on the eye's side,
+/// else transmitted; and skylight in the same way.
+struct LitVoxel {
+  glm::vec3 front{0.0f}, back{0.0f};  ///< linear RGB radiance
+  float sun = 0.0f;                   ///< transmittance toward the sun, 0 to 1; 0 with the sun under the horizon
+};
+struct LitTexel {
+  std::vector<LitVoxel> voxels;  ///< one a voxel of the texel
+  std::vector<float> groundSun;  ///< transmittance from the ground toward the sun, [y][x]
+};
+/// Marches every voxel and column toward the sun: the voxel's own leaf does not shade it, the march starts one voxel
+/// out. Errors: Error::cancelled().
+Result<LitTexel> lightTexel(const Texel& texel, const TexelSky& sky, const TexelLight& light, const JobContext& job);
+
+/// Strength of a highlight of hair (Kajiya and Kay 1989), 0 to 1: the light is reflected into a cone about the tangent.
+/// `toEye` and `toLight` unit; 0 for a zero tangent.
+float kajiyaKay(const glm::vec3& tangent, const glm::vec3& toEye, const glm::vec3& toLight, float exponent);
+
+}  // namespace sward::wither

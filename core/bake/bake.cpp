@@ -45,6 +45,8 @@ struct Baker::Impl {
 
 namespace {
 
+constexpr int kTexelMap = 128;  ///< cells of a map of texels along each side
+
 /// A sun below the horizon lights nothing, whatever is baked for it; passes follow no shadow beyond their lowest light.
 glm::dvec3 aboveHorizon(const glm::dvec3& sun, Sampler sampler) {
   const double lowest = sampler == Sampler::Passes ? trace::CanopyLight::kLowestZ : 0.0;
@@ -101,6 +103,10 @@ Result<std::shared_ptr<const GroundBake>> Baker::Impl::texelGround(const GroundR
     SWARD_ASSIGN(fresh->texels, texels.texels(atQuality(request.project, request.quality), job, &made));
     fresh->patchSideM = fresh->texels->grid().sideM;
     fresh->heightM = fresh->texels->grid().heightM;
+    // One tile, the patch itself, and a map of it that only varies in brightness.
+    fresh->tiles.resolution = fresh->tiles.patchResolution = 1;
+    fresh->map.width = fresh->map.height = kTexelMap;
+    fresh->map.tiles.assign(std::size_t{kTexelMap} * kTexelMap, 0);
     node.state = NodeReport::State::Baked;
     node.seconds = made.restSeconds + made.ageSeconds + made.levelSeconds;
     memory.put(key, fresh, memoryBytes(*fresh));

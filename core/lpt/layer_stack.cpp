@@ -2,8 +2,8 @@
 
 #include "base/check.h"
 #include "base/parallel.h"
+#include "image/pull_push.h"
 #include "lpt/polynomial.h"
-#include "lpt/pull_push.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +54,7 @@ class SurfaceImage {
     m_values.assign(m_pixels * kValues, 0.0f);
     m_coverage.assign(m_pixels, 0.0f);
     for (std::size_t p = 0; p < m_pixels; ++p) gather(p);
-    detail::pullPush(m_values, m_coverage, in.width, in.height, static_cast<int>(kValues), periodic);
+    image::pullPush(m_values, m_coverage, in.width, in.height, static_cast<int>(kValues), periodic);
   }
 
   void write(LayerStack& stack) const {

@@ -63,6 +63,12 @@ constexpr auto words(report::ErrorBound) {
        {report::ErrorBound::Ssim, "ssim", "SSIM", "Structural similarity of display values, 0 to 1: at least."},
        {report::ErrorBound::Flip, "flip", "FLIP", "What an eye notices when it flips between the two, 0 to 1."}}};
 }
+constexpr auto words(terrain::Source) {
+  return std::array<Word<terrain::Source>, 3>{{{terrain::Source::Flat, "flat", "Flat", "Level ground without end."},
+                                               {terrain::Source::Hills, "hills", "Hills", "Hills grown from a seed."},
+                                               {terrain::Source::Heightmap, "heightmap", "Heightmap",
+                                                "Heights from an image (PNG, TIFF, EXR) or an ESRI ASCII grid."}}};
+}
 constexpr auto words(tiles::SeamMethod) {
   return std::array<Word<tiles::SeamMethod>, 2>{
       {{tiles::SeamMethod::DynamicProgramming, "dynamic_programming", "Straight scan",

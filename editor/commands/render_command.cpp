@@ -100,6 +100,7 @@ struct RenderPlan {
   scene::View view;
   scene::Daylight daylight;
   render::Frame frame;
+  std::shared_ptr<const terrain::HeightField> terrain;  ///< nothing: level ground
   fs::path output;
   bool linear = false;
 };
@@ -119,10 +120,12 @@ Result<RenderPlan> planRender(const Program& program, const RenderRequest& reque
   SWARD_ASSIGN(const scene::View view, chooseView(project, request.view));
   SWARD_ASSIGN(const scene::Daylight daylight, render::daylightOf(project));
   SWARD_ASSIGN(const render::Frame frame, render::planFrame(project, view, daylight, request.exposureEv));
+  SWARD_ASSIGN(const terrain::Terrain terrain, render::terrainOf(project));
+  for (const std::string& warning : terrain.warnings) warn(program, "terrain: " + warning);
   std::string extension = fs::path(request.output).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return RenderPlan{std::move(project), view, daylight, frame, request.output, extension == ".exr"};
+  return RenderPlan{std::move(project), view, daylight, frame, terrain.field, request.output, extension == ".exr"};
 }
 
 struct RenderTimes {
@@ -134,6 +137,7 @@ Result<image::Image> drawPicture(Program& program, const RenderPlan& plan, gpu::
   StopWatch watch;
   SWARD_ASSIGN(const auto renderer, render::Renderer::create(context));
   SWARD_TRY(renderer->setGround(std::move(ground)));
+  if (plan.terrain) SWARD_TRY(renderer->setTerrain(plan.terrain));
   times.upload = watch.lap();
   renderer->setDaylight(plan.daylight, plan.project.sky.hazeKm);
   if (program.interrupts.requested()) return Error::cancelled();

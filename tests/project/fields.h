@@ -43,7 +43,7 @@ inline Json changed(const Json& value) {
        {swapTo(PlantKind{}), swapTo(scene::LightPattern{}), swapTo(lpt::Basis{}), swapTo(lpt::LayerCoordinate{}),
         swapTo(tiles::SeamMethod{}), swapTo(tiles::SeamDomain{}), swapTo(tiles::MapMethod{}),
         swapTo(render::GroundMethod{}), swapTo(render::ViewTransform{}), swapTo(report::ErrorBound{}),
-        swapTo(wither::Autumn{}), swapTo(leaf::LeafOptions::Model{})}) {
+        swapTo(terrain::Source{}), swapTo(wither::Autumn{}), swapTo(leaf::LeafOptions::Model{})}) {
     if (word) return *word;
   }
   return Json(text + "x");

@@ -1,6 +1,9 @@
 #include "bake/bake.h"
 
+#include "bake/memory_size.h"
 #include "bake/session.h"
+#include "bake/texel_baker.h"
+#include "bake/withering.h"
 #include "scene/lights.h"
 #include "scene/sun_sky.h"
 #include "trace/canopy_light.h"
@@ -28,13 +31,21 @@ struct Baker::Impl {
   auto run(const GroundRequest& request, const JobContext& job, BakeReport* report, const Walk& walk)
       -> decltype(walk(std::declval<Session&>()));
 
+  /// The same for projects that are drawn as texels: no layers, none of the graph's nodes.
+  Result<std::shared_ptr<const GroundBake>> texelGround(const GroundRequest& request, const JobContext& job,
+                                                        BakeReport* report);
+  Result<base::Hash128> texelKey(const GroundRequest& request);
+
   Options options;
+  TexelBaker texels;
   std::optional<DiskCache> disk, noDisk;
   MemoryCache memory;
   AssetHashes assets;
 };
 
 namespace {
+
+constexpr int kTexelMap = 128;  ///< cells of a map of texels along each side
 
 /// A sun below the horizon lights nothing, whatever is baked for it; passes follow no shadow beyond their lowest light.
 glm::dvec3 aboveHorizon(const glm::dvec3& sun, Sampler sampler) {
@@ -76,7 +87,42 @@ auto Baker::Impl::run(const GroundRequest& request, const JobContext& job, BakeR
   return result;
 }
 
+Result<base::Hash128> Baker::Impl::texelKey(const GroundRequest& request) {
+  SWARD_TRY(project::requireValid(request.project));
+  return texels.key(atQuality(request.project, request.quality));
+}
+
+Result<std::shared_ptr<const GroundBake>> Baker::Impl::texelGround(const GroundRequest& request, const JobContext& job,
+                                                                   BakeReport* report) {
+  SWARD_ASSIGN(const base::Hash128 key, texelKey(request));
+  NodeReport node{"texels", "", NodeReport::State::FromMemory};
+  auto ground = memory.get<GroundBake>(key);
+  if (!ground) {
+    TexelReport made;
+    auto fresh = std::make_shared<GroundBake>();
+    SWARD_ASSIGN(fresh->texels, texels.texels(atQuality(request.project, request.quality), job, &made));
+    fresh->patchSideM = fresh->texels->grid().sideM;
+    fresh->heightM = fresh->texels->grid().heightM;
+    // One tile, the patch itself, and a map of it that only varies in brightness.
+    fresh->tiles.resolution = fresh->tiles.patchResolution = 1;
+    fresh->map.width = fresh->map.height = kTexelMap;
+    fresh->map.tiles.assign(std::size_t{kTexelMap} * kTexelMap, 0);
+    node.state = NodeReport::State::Baked;
+    node.seconds = made.restSeconds + made.ageSeconds + made.levelSeconds;
+    memory.put(key, fresh, memoryBytes(*fresh));
+    ground = std::move(fresh);
+  }
+  node.bytes = memoryBytes(*ground);
+  if (report != nullptr) {
+    *report = {};
+    report->seconds = node.seconds;
+    report->nodes.push_back(std::move(node));
+  }
+  return ground;
+}
+
 std::vector<glm::ivec2> layoutOf(const GroundBake& ground) {
+  if (ground.texels) return {};
   const int pitch = ground.tiles.patchResolution / ground.bladesPerPatch;
   std::vector<glm::ivec2> layout = ground.tiles.diamonds;
   for (glm::ivec2& diamond : layout) diamond /= pitch;
@@ -97,6 +143,7 @@ Result<std::shared_ptr<const GroundBake>> Baker::ground(const project::Project& 
 
 Result<std::shared_ptr<const GroundBake>> Baker::ground(const GroundRequest& request, const JobContext& job,
                                                         BakeReport* report) {
+  if (drawnAsTexels(request.project)) return m_impl->texelGround(request, job, report);
   return m_impl->run(request, job, report, [](Session& session) { return session.ground(); });
 }
 
@@ -105,11 +152,13 @@ Result<std::vector<tiles::SeamColumn>> Baker::seamColumns(const GroundRequest& r
 }
 
 Result<base::Hash128> Baker::key(const GroundRequest& request) {
+  if (drawnAsTexels(request.project)) return m_impl->texelKey(request);
   SWARD_ASSIGN(const Impl::Plan plan, m_impl->plan(request));
   return plan.keys.ground;
 }
 
 Result<bool> Baker::tracesNothing(const GroundRequest& request) {
+  if (drawnAsTexels(request.project)) return false;
   SWARD_ASSIGN(const Impl::Plan plan, m_impl->plan(request));
   const MemoryCache& memory = m_impl->memory;
   return memory.contains(plan.keys.seamFit) &&
@@ -129,6 +178,9 @@ Result<std::shared_ptr<const Inspection>> Baker::inspection(const project::Proje
 
 Result<std::shared_ptr<const Inspection>> Baker::inspection(const GroundRequest& request, const JobContext& job,
                                                             BakeReport* report) {
+  if (drawnAsTexels(request.project)) {
+    return Error::badInput("texels have no layers to inspect", "render.method", "Choose another method of drawing.");
+  }
   return m_impl->run(request, job, report, [](Session& session) { return session.inspection(); });
 }
 

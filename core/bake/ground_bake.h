@@ -1,15 +1,17 @@
 #pragma once
 
+#include "bake/texel_bake.h"
 #include "lpt/layer_stack.h"
 #include "tiles/tile_set.h"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace sward::bake {
 
-/// Everything that a renderer needs to draw one kind of ground, plain data.
+/// Everything that a renderer needs to draw one kind of ground, plain data: layers of tiles, or texels.
 struct GroundBake {
   double patchSideM = 1.0;
   double heightM = 0.0;  ///< top of the shell over the ground, at least 1 cm, also over bare soil
@@ -22,6 +24,8 @@ struct GroundBake {
   std::vector<tiles::BladeOwner> bladeOwners;
   int bladesPerPatch = 8;
   tiles::TileMap map;
+  /// Texels that stand in place of all the layers, which are empty then (render::GroundMethod::Texels); else null.
+  std::shared_ptr<const TexelBake> texels;
 
   double tileSideM() const { return patchSideM * tiles.resolution / tiles.patchResolution; }
 };

@@ -21,10 +21,10 @@ constexpr int kHitsVersion = 1;
 constexpr int kLuminanceVersion = 1;
 constexpr int kVisibilityVersion = 1;
 constexpr int kSurfaceVersion = 1;
-constexpr int kFitVersion = 2;
+constexpr int kFitVersion = 3;
 constexpr int kRepresentationVersion = 1;
 constexpr int kTilesVersion = 2;
-constexpr int kStackVersion = 1;
+constexpr int kStackVersion = 2;
 constexpr int kGroundVersion = 2;
 
 Hasher start(std::string_view kind, int version) {
@@ -137,6 +137,7 @@ Hash128 fitKey(const SetKeys& keys, const lpt::FitOptions& options, const std::o
   hasher.add(keys.hits).add(keys.visibility).add(keys.luminance.size());
   for (const Hash128& light : keys.luminance) hasher.add(light);
   hasher.add(options.basis).add(options.paper).add(options.layerRidge).add(options.lightRidge);
+  if (options.basis == lpt::Basis::Lpt) hasher.add(options.coordinate);
   return hasher.finish();
 }
 
@@ -213,9 +214,18 @@ lpt::FitOptions stackOptionsOf(const project::Project& project, trace::LayerSet 
   return options;
 }
 
+lpt::FitOptions seamOptionsOf(const project::Project& project) {
+  lpt::FitOptions options = project.fit;
+  options.basis = lpt::Basis::Lpt;
+  options.coordinate = lpt::LayerCoordinate::Depth;
+  return options;
+}
+
 namespace {
 
 bool sameWithering(const project::Project& a, const project::Project& b) {
+  if (drawnAsTexels(a) != drawnAsTexels(b)) return false;
+  if (drawnAsTexels(a)) return a.wither == b.wither && a.leaf == b.leaf;
   if (!withers(a) && !withers(b)) return true;
   return a.wither.weathering == b.wither.weathering && a.wither.ageing == b.wither.ageing &&
          a.wither.body == b.wither.body && a.wither.mingle == b.wither.mingle && a.leaf == b.leaf;
@@ -245,9 +255,7 @@ Result<GroundKeys> groundKeys(const project::Project& project, std::span<const g
   for (const trace::LayerSet set : trace::kAllLayerSets) {
     keys.sets[static_cast<std::size_t>(set)] = setKeys(project, patch, set, lights, settings);
   }
-  lpt::FitOptions seam = project.fit;
-  seam.basis = lpt::Basis::Lpt;
-  keys.seamFit = fitKey(keys.of(trace::LayerSet::Slices), seam, {});
+  keys.seamFit = fitKey(keys.of(trace::LayerSet::Slices), seamOptionsOf(project), {});
   keys.tiles = tilesKey(keys, project, settings.layout);
   Hasher ground = start("ground", kGroundVersion);
   for (const trace::LayerSet set : trace::kAllLayerSets) {

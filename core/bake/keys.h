@@ -45,6 +45,8 @@ struct GroundKeys {
 lpt::FitOptions fitOptionsOf(const project::Project& project, trace::LayerSet set);
 /// How the same set's stack is quantised: what was relit for one sun keeps 16 bits, its own rounding is in it already.
 lpt::FitOptions stackOptionsOf(const project::Project& project, trace::LayerSet set);
+/// What seams are cut by, whatever the layers keep: an LPT in depth, whose coefficients alone tell two columns apart.
+lpt::FitOptions seamOptionsOf(const project::Project& project);
 
 /// Whether two projects say the same about the ground, so that their grounds are the same as long as their asset files
 /// are. Reads no file and hashes nothing: for a thread that must not wait. Two that differ may still give equal

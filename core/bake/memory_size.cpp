@@ -15,7 +15,7 @@ std::uint64_t memoryBytes(const trace::LayerVisibility& visibility) {
   return visibility.visibility.size() * 3 * sizeof(float);
 }
 std::uint64_t memoryBytes(const lpt::Fit& fit) {
-  return (fit.coefficients.size() + fit.layerWeight.size()) * sizeof(float) +
+  return (fit.coefficients.size() + fit.layerWeight.size()) * sizeof(float) + fit.common.bytes() +
          static_cast<std::uint64_t>(fit.columns) * 13;
 }
 std::uint64_t memoryBytes(const lpt::LayerStack& stack) {
@@ -48,6 +48,11 @@ std::uint64_t memoryBytes(const scene::Patch& patch) {
 std::uint64_t memoryBytes(const GroundBake& ground) {
   std::uint64_t bytes = memoryBytes(ground.slices) + memoryBytes(ground.soil) + ground.map.tiles.size();
   for (const lpt::LayerStack& blade : ground.blades) bytes += memoryBytes(blade);
+  if (ground.texels) {
+    for (const TexelBake::Level& level : ground.texels->levels) {
+      bytes += level.texel->bytes() + (level.sky.front.size() + level.sky.back.size()) * sizeof(float);
+    }
+  }
   return bytes;
 }
 

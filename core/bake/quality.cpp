@@ -38,6 +38,13 @@ void divide(project::Project& project, int divisor) {
   t.apron = std::max(t.apron / divisor, 1);
 }
 
+/// Columns of a texel divided by a power of two, in whole bricks.
+int dividedTexel(int resolution, int divisor) {
+  constexpr int kBrick = 8, kFewest = 32;
+  const int divided = resolution / divisor / kBrick * kBrick;
+  return std::min(resolution, std::max(divided, kFewest));
+}
+
 /// Whether a project may be divided: sizes stay whole, and large enough for the schema and the tiles.
 bool divides(const project::Project& project, int divisor) {
   const trace::SamplingOptions& s = project.sampling;
@@ -94,6 +101,7 @@ project::Project atQuality(const project::Project& project, Quality quality) {
   project::Project reduced = project;
   trace::SamplingOptions& s = reduced.sampling;
   if (quality == Quality::Half) {
+    reduced.wither.texel.resolution = dividedTexel(project.wither.texel.resolution, 2);
     divideAtMost(reduced, 2);
     s.sliceSubSamples = (s.sliceSubSamples + 1) / 2;
     s.bladeSubSamples = (s.bladeSubSamples + 1) / 2;
@@ -101,6 +109,7 @@ project::Project atQuality(const project::Project& project, Quality quality) {
     s.bladeHeight = std::max(2 * s.bladeHeight / 3, 4);  // blades cost most of the rays and have the finest texels
     if (lightCount(reduced.lights) > kHalfLights) reduced.lights = evenLights(kHalfLights);
   } else if (quality == Quality::Coarse) {
+    reduced.wither.texel.resolution = dividedTexel(project.wither.texel.resolution, 4);
     divideAtMost(reduced, 4);
     // Two, so that the outlines of texels as wide as a hand are not all or nothing.
     s.sliceSubSamples = std::min(s.sliceSubSamples, 2);

@@ -69,7 +69,7 @@ void Session::plan() {
       planNode("representation", name, 0.2 * rays);
       planNode("luminance", sunName(set), covered);
     }
-    if (set == LayerSet::Slices && m_project.fit.basis != lpt::Basis::Lpt) planNode("fit", "seams", 0.2 * rays);
+    if (set == LayerSet::Slices && m_project.fit != seamOptionsOf(m_project)) planNode("fit", "seams", 0.2 * rays);
     planNode("surface", name, 0.2 * covered);
     if (set == LayerSet::Slices) planNode("tiles", "", 1.0);
     planNode("stack", name, 0.2 * rays);

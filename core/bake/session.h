@@ -118,6 +118,7 @@ class Session {
 
   std::unique_ptr<trace::PatchScene> m_scene;
   Shared<trace::VoxelDensity> m_density;
+  Shared<lpt::Fit> m_slicesFit;  ///< held from the seams to the stack
   // Of the sampler that passes over all triangles: all layer sets at once, since the passes share their cost.
   std::unique_ptr<trace::TriangleField> m_field;
   std::vector<trace::LayerHits> m_passed;

@@ -24,6 +24,7 @@ Result<Session::LightSamples> Session::lightSamples(LayerSet set, bool withLight
   input.layer = out.hits->layer;
   input.coverage = out.coverage;
   input.visibility = out.visibility->visibility;
+  input.sky = {out.visibility->skyReflected, out.visibility->skyTransmitted};
   input.visibilityDirections = m_project.sampling.visibilityDirections;
   input.lights = withLights ? std::span(m_lights) : std::span<const glm::dvec3>();
   input.channels = set == LayerSet::Ground ? 1 : 2;
@@ -122,10 +123,16 @@ Result<std::shared_ptr<const lpt::Fit>> Session::fit(LayerSet set) {
 }
 
 Result<std::shared_ptr<const lpt::Fit>> Session::seamFit() {
-  if (m_project.fit.basis == lpt::Basis::Lpt) return fit(LayerSet::Slices);
-  lpt::FitOptions options = m_project.fit;
-  options.basis = lpt::Basis::Lpt;
-  return fitWith(LayerSet::Slices, options, "seams", m_keys.seamFit);
+  const lpt::FitOptions options = seamOptionsOf(m_project);
+  if (m_project.fit == options) return fit(LayerSet::Slices);
+  return node<lpt::Fit>("fit", "seams", m_keys.seamFit, keepTraced(), [&](const JobContext& job) -> Result<lpt::Fit> {
+    // The layers' own fit, while what both read is held: light that is kept on the disk alone, or nowhere.
+    SWARD_ASSIGN(const LightSamples held, lightSamples(LayerSet::Slices, true));
+    if (!lpt::needsSun(m_project.fit.basis)) {
+      SWARD_ASSIGN(m_slicesFit, fit(LayerSet::Slices));
+    }
+    return makeFit(LayerSet::Slices, options, job);
+  });
 }
 
 }  // namespace sward::bake

@@ -16,7 +16,7 @@ std::shared_ptr<const T> Session::findOnDisk(const std::string& kind, const base
     const auto payload = m_disk->get(kind, key);
     auto value = payload ? fromPayload<T>(*payload) : std::nullopt;
     if (!value) return nullptr;
-    report.state = NodeReport::State::FromDisk;
+    if (report.state == NodeReport::State::Skipped) report.state = NodeReport::State::FromDisk;
     report.bytes = payload->size();
     auto shared = std::make_shared<const T>(std::move(*value));
     m_held[key] = shared;

@@ -29,6 +29,7 @@ class StackBuilder {
     m_out.images = images;
     m_out.layers = fit.layers;
     m_out.channels = fit.channels;
+    m_out.common = fit.common;
     m_perSet = fit.basis == lpt::Basis::Lpt ? fit.perColumn : fit.perColumn / fit.layers;
     const std::size_t columns =
         static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(images);
@@ -143,7 +144,7 @@ class StackBuilder {
 }  // namespace
 
 std::vector<tiles::SeamColumn> seamColumns(const SetLayers& slices) {
-  SWARD_CHECK(slices.fit.basis == lpt::Basis::Lpt);
+  SWARD_CHECK(slices.fit.basis == lpt::Basis::Lpt && slices.fit.common.empty());
   SWARD_CHECK_EQ(slices.fit.channels, 2);
   std::vector<tiles::SeamColumn> columns(static_cast<std::size_t>(slices.fit.columns));
   for (std::uint32_t c = 0; c < columns.size(); ++c) {

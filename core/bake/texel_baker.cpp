@@ -5,6 +5,7 @@
 #include "bake/plants.h"
 #include "bake/soil.h"
 #include "bake/withering.h"
+#include "project/value_hash.h"
 #include "wither/extinction.h"
 #include "wither/points.h"
 #include "wither/pose.h"
@@ -20,8 +21,9 @@
 namespace sward::bake {
 namespace {
 
-constexpr int kCoarsest = 8;     ///< columns of the coarsest level: a voxel is then as wide as a tuft
-constexpr int kSkyColumns = 64;  ///< levels up to this march to the sky, finer ones look it up
+constexpr int kTexelVersion = 1;  ///< raise it when texels change for the same project
+constexpr int kCoarsest = 8;      ///< columns of the coarsest level: a voxel is then as wide as a tuft
+constexpr int kSkyColumns = 64;   ///< levels up to this march to the sky, finer ones look it up
 /// Bent blades and the round of a splat's edge reach a little over the tallest plant.
 constexpr double kHeadroom = 1.02;
 
@@ -43,18 +45,22 @@ struct Rest {
   std::vector<glm::vec3> soil;
 };
 
-Result<base::Hash128> restKey(const project::Project& project, int columns, AssetHashes& assets) {
-  SWARD_ASSIGN(const GroundKeys keys, groundKeys(atRest(project), {}, {}, assets));
+Result<base::Hash128> restKey(const project::Project& project, AssetHashes& assets) {
+  // No light is part of this; some fits want a sun.
+  GroundSettings settings;
+  settings.sun = glm::dvec3(0.0, 0.0, 1.0);
+  SWARD_ASSIGN(const GroundKeys keys, groundKeys(atRest(project), {}, settings, assets));
   base::Hasher hasher;
   hasher.add(std::string_view("texel")).add(keys.patch).add(keys.of(trace::LayerSet::Slices).surface);
-  hasher.add(keys.of(trace::LayerSet::Ground).surface).add(columns).add(project.wither.texel.proportion);
+  hasher.add(keys.of(trace::LayerSet::Ground).surface).add(project.wither.texel.resolution);
+  hasher.add(project.wither.texel.proportion);
   hasher.add(project.wither.ageing.variation).add(project.wither.body.droopVariation);
   for (const wither::MingleSample& sample : project.wither.mingle) hasher.add(sample.share);
   return hasher.finish();
 }
 
-/// A leaf at the grid's top is splatted into layers above it.
-Result<Rest> makeRest(const project::Project& project, int columns, const base::Hash128& key, const JobContext& job) {
+Result<Rest> makeRest(const project::Project& project, const base::Hash128& key, const JobContext& job) {
+  const int columns = project.wither.texel.resolution;
   Rest rest;
   rest.key = key;
   SWARD_ASSIGN(const scene::Patch patch, growPatch(atRest(project)));
@@ -107,18 +113,18 @@ double secondsSince(std::chrono::steady_clock::time_point& start) {
 
 struct TexelBaker::Impl {
   AssetHashes assets;
-  std::vector<Rest> held;  ///< the last kHeld: a preview and the full size
-  static constexpr std::size_t kHeld = 2;
+  std::vector<Rest> held;  ///< the last kHeld: one of every quality
+  static constexpr std::size_t kHeld = 3;
   wither::Points moved;
 
-  Result<const Rest*> rest(const project::Project& project, int columns, const JobContext& job) {
-    SWARD_ASSIGN(const base::Hash128 key, restKey(project, columns, assets));
+  Result<const Rest*> rest(const project::Project& project, const JobContext& job) {
+    SWARD_ASSIGN(const base::Hash128 key, restKey(project, assets));
     const auto found = std::find_if(held.begin(), held.end(), [&](const Rest& rest) { return rest.key == key; });
     if (found != held.end()) {
       std::rotate(held.begin(), found, found + 1);
       return &held.front();
     }
-    SWARD_ASSIGN(Rest made, makeRest(project, columns, key, job));
+    SWARD_ASSIGN(Rest made, makeRest(project, key, job));
     held.insert(held.begin(), std::move(made));
     if (held.size() > kHeld) held.resize(kHeld);
     return &held.front();
@@ -142,11 +148,27 @@ wither::TexelGrid texelGridOf(double sideM, double heightM, int columns) {
   return grid;
 }
 
-Result<std::shared_ptr<const TexelBake>> TexelBaker::texels(const project::Project& project, int columns,
-                                                            const JobContext& job, TexelReport* report) {
+Result<base::Hash128> TexelBaker::key(const project::Project& project) {
+  SWARD_ASSIGN(const base::Hash128 rest, restKey(project, m_impl->assets));
+  base::Hasher hasher;
+  hasher.add(rest).add(kTexelVersion).add(project.wither.weathering).add(project.wither.mingle.size());
+  project::hashValues(hasher, project.wither.body, project::Role::Shape);
+  project::hashValues(hasher, project.wither.texel, project::Role::Shape);
+  for (const project::Role role : {project::Role::Shape, project::Role::Colour}) {
+    project::hashValues(hasher, project.wither.ageing, role);
+    project::hashValues(hasher, project.leaf, role);
+  }
+  for (const wither::MingleSample& sample : project.wither.mingle) {
+    project::hashValues(hasher, sample, project::Role::Shape);
+  }
+  return hasher.finish();
+}
+
+Result<std::shared_ptr<const TexelBake>> TexelBaker::texels(const project::Project& project, const JobContext& job,
+                                                            TexelReport* report) {
   SWARD_TRY(project::requireValid(project));
   auto start = std::chrono::steady_clock::now();
-  SWARD_ASSIGN(const Rest* rest, m_impl->rest(project, columns > 0 ? columns : project.wither.texel.resolution, job));
+  SWARD_ASSIGN(const Rest* rest, m_impl->rest(project, job));
   TexelReport done;
   done.restSeconds = secondsSince(start);
   SWARD_ASSIGN(const Ageing ageing, ageingOf(project));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bake/texel_bake.h"
+#include "base/hash.h"
 #include "base/job.h"
 #include "base/result.h"
 #include "project/project.h"
@@ -30,10 +31,11 @@ class TexelBaker {
   TexelBaker(TexelBaker&&) noexcept;
   TexelBaker& operator=(TexelBaker&&) noexcept;
 
-  /// The texels of a valid project at its weathering degree. `columns`: voxels along a side, a multiple of 8; 0: the
-  /// project's. Errors: a missing asset; more voxels than memory allows (remedy: resolution); Error::cancelled().
-  Result<std::shared_ptr<const TexelBake>> texels(const project::Project& project, int columns, const JobContext& job,
+  /// The texels of a valid project at its weathering degree. Errors: a missing asset; Error::cancelled().
+  Result<std::shared_ptr<const TexelBake>> texels(const project::Project& project, const JobContext& job,
                                                   TexelReport* report = nullptr);
+  /// Equal for two projects exactly when their texels are. Errors: a missing asset.
+  Result<base::Hash128> key(const project::Project& project);
 
  private:
   struct Impl;

@@ -13,6 +13,10 @@ bool withers(const project::Project& project) {
   return project.wither.weathering > 0.0 || !project.wither.mingle.empty();
 }
 
+bool drawnAsTexels(const project::Project& project) {
+  return project.render.method == render::GroundMethod::Texels;
+}
+
 std::size_t sampleCount(const project::Project& project) {
   return std::max<std::size_t>(project.wither.mingle.size(), 1);
 }

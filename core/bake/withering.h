@@ -13,6 +13,8 @@ namespace sward::bake {
 
 /// Whether a project's plants differ from how they grew: it has weathered, or samples are mixed.
 bool withers(const project::Project& project);
+/// Whether its ground is texels, which need no layers (render::GroundMethod::Texels).
+bool drawnAsTexels(const project::Project& project);
 /// Samples that every plant is grown in: those of the mingling, at least one.
 std::size_t sampleCount(const project::Project& project);
 /// A sample's part of the plants, times its density.

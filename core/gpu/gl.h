@@ -14,6 +14,7 @@ namespace sward::gpu {
   X(BLENDFUNC, BlendFunc)                                     \
   X(CHECKNAMEDFRAMEBUFFERSTATUS, CheckNamedFramebufferStatus) \
   X(CLEARNAMEDFRAMEBUFFERFV, ClearNamedFramebufferfv)         \
+  X(CLIPCONTROL, ClipControl)                                 \
   X(COMPILESHADER, CompileShader)                             \
   X(CREATEBUFFERS, CreateBuffers)                             \
   X(CREATEFRAMEBUFFERS, CreateFramebuffers)                   \
@@ -28,9 +29,11 @@ namespace sward::gpu {
   X(DELETESHADER, DeleteShader)                               \
   X(DELETETEXTURES, DeleteTextures)                           \
   X(DELETEVERTEXARRAYS, DeleteVertexArrays)                   \
+  X(DEPTHFUNC, DepthFunc)                                     \
   X(DISABLE, Disable)                                         \
   X(DISPATCHCOMPUTE, DispatchCompute)                         \
   X(DRAWARRAYSINSTANCED, DrawArraysInstanced)                 \
+  X(DRAWELEMENTS, DrawElements)                               \
   X(ENABLE, Enable)                                           \
   X(FINISH, Finish)                                           \
   X(GETACTIVEUNIFORM, GetActiveUniform)                       \
@@ -66,6 +69,7 @@ namespace sward::gpu {
   X(TEXTURESTORAGE2D, TextureStorage2D)                       \
   X(TEXTURESUBIMAGE2D, TextureSubImage2D)                     \
   X(USEPROGRAM, UseProgram)                                   \
+  X(VERTEXARRAYELEMENTBUFFER, VertexArrayElementBuffer)       \
   X(VIEWPORT, Viewport)
 
 /// Function pointers of one context, resolved through that context's own loader.

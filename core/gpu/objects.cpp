@@ -88,6 +88,10 @@ Framebuffer::Framebuffer(const Texture& colour) {
   gl().NamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, colour.name(), 0);
 }
 
+Framebuffer::Framebuffer(const Texture& colour, const Texture& depth) : Framebuffer(colour) {
+  gl().NamedFramebufferTexture(name(), GL_DEPTH_ATTACHMENT, depth.name(), 0);
+}
+
 bool Framebuffer::complete() const {
   return gl().CheckNamedFramebufferStatus(name(), GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
 }
@@ -102,6 +106,10 @@ VertexArray VertexArray::make() {
   gl().CreateVertexArrays(1, &name);
   array.m_handle = Handle<destroyVertexArray>(name);
   return array;
+}
+
+void VertexArray::setElements(const Buffer& indices) {
+  gl().VertexArrayElementBuffer(m_handle.name(), indices.name());
 }
 
 void VertexArray::bind() const {

@@ -86,6 +86,7 @@ class Framebuffer {
  public:
   Framebuffer() = default;
   explicit Framebuffer(const Texture& colour);
+  Framebuffer(const Texture& colour, const Texture& depth);
   GLuint name() const { return m_handle.name(); }
   bool complete() const;
   void bind() const;
@@ -94,12 +95,14 @@ class Framebuffer {
   Handle<destroyFramebuffer> m_handle;
 };
 
-/// An empty vertex array: our passes make their vertices from gl_VertexID.
+/// A vertex array without attributes: our passes make their vertices from gl_VertexID.
 class VertexArray {
  public:
   VertexArray() = default;
   static VertexArray make();
   void bind() const;
+  /// Where indices are read from; the buffer must outlive what is drawn.
+  void setElements(const Buffer& indices);
 
  private:
   Handle<destroyVertexArray> m_handle;

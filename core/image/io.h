@@ -24,6 +24,15 @@ Result<Image> readImage(const std::filesystem::path& path, Encoding encoding = E
 /// The same from memory; `name` stands in messages, its extension does not matter.
 Result<Image> readImage(std::span<const std::byte> data, const std::string& name, Encoding encoding = Encoding::Srgb);
 
+/// What the header of an image says.
+struct ImageFacts {
+  int width = 0, height = 0, channels = 0;
+  bool integer = true;  ///< false: floats
+  int bits = 8;         ///< of a value in the file
+};
+/// Reads no pixels, and judges no size: callers with limits of their own refuse an image before it is decoded.
+Result<ImageFacts> readImageFacts(std::span<const std::byte> data, const std::string& name);
+
 /// Writes display values in [0, 1] (already sRGB-encoded) as 8-bit PNG with an sRGB tag; 1, 3 or 4 channels.
 /// Written to a temporary and renamed.
 Result<void> writePng(const std::filesystem::path& path, const Image& encoded);

@@ -89,27 +89,40 @@ void divideByAlpha(Image& image, int colourChannels) {
   }
 }
 
-Result<Image> decode(std::span<const std::byte> data, const char* format, const std::string& name, Encoding encoding) {
-  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
-  if (!input) {
+/// An image in memory, opened; `memory` and `proxy` outlive the input that reads from them.
+struct OpenImage {
+  explicit OpenImage(std::span<const std::byte> data) : memory(data.data(), data.size()), proxy(&memory) {}
+  OIIO::Filesystem::IOMemReader memory;
+  OIIO::Filesystem::IOProxy* proxy;
+  std::unique_ptr<OIIO::ImageInput> input;
+  OIIO::ImageSpec spec;
+};
+
+Result<void> open(OpenImage& image, const char* format, const std::string& name) {
+  image.input = OIIO::ImageInput::create(format);
+  if (!image.input) {
     return Error::failed(std::string("this OpenImageIO cannot read ") + format + " images: " + OIIO::geterror(), name,
                          "Install the full OpenImageIO package.");
   }
-  OIIO::Filesystem::IOMemReader reader(data.data(), data.size());
-  OIIO::Filesystem::IOProxy* proxy = &reader;
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
-  config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-  OIIO::ImageSpec spec;
-  if (!input->open(std::string("memory.") + format, spec, config)) {
-    return Error::badInput("the image cannot be read: " + input->geterror(), name, kDamagedRemedy);
+  config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &image.proxy);
+  if (!image.input->open(std::string("memory.") + format, image.spec, config)) {
+    return Error::badInput("the image cannot be read: " + image.input->geterror(), name, kDamagedRemedy);
   }
+  return {};
+}
+
+Result<Image> decode(std::span<const std::byte> data, const char* format, const std::string& name, Encoding encoding) {
+  OpenImage opened(data);
+  SWARD_TRY(open(opened, format, name));
+  const OIIO::ImageSpec& spec = opened.spec;
   SWARD_TRY(checkSize(spec, data.size(), name));
 
   const int channels = std::min(spec.nchannels, 4);
   Image image(spec.width, spec.height, channels);
-  if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, image.pixels.data())) {
-    return Error::badInput("the image cannot be read: " + input->geterror(), name, kDamagedRemedy);
+  if (!opened.input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, image.pixels.data())) {
+    return Error::badInput("the image cannot be read: " + opened.input->geterror(), name, kDamagedRemedy);
   }
   const bool alphaLast = spec.alpha_channel == channels - 1 && channels > 1;
   const int colours = alphaLast ? channels - 1 : channels;
@@ -119,16 +132,33 @@ Result<Image> decode(std::span<const std::byte> data, const char* format, const 
   return image;
 }
 
-}  // namespace
-
-Result<Image> readImage(std::span<const std::byte> data, const std::string& name, Encoding encoding) {
+/// The format that the data announce; PNG files are checked before libpng sees them.
+Result<const char*> checkedFormat(std::span<const std::byte> data, const std::string& name) {
   const char* format = formatOf(data);
   if (format == nullptr) {
     return Error::badInput(unsupportedText(data), name, "Convert it to PNG, JPEG, EXR, HDR or TIFF.");
   }
   if (format == std::string_view("png")) SWARD_TRY(checkPng(data, name));
+  return format;
+}
+
+}  // namespace
+
+Result<Image> readImage(std::span<const std::byte> data, const std::string& name, Encoding encoding) {
+  SWARD_ASSIGN(const char* const format, checkedFormat(data, name));
   return withoutExceptions(name, kDamagedRemedy,
                            [&]() -> Result<Image> { return decode(data, format, name, encoding); });
+}
+
+Result<ImageFacts> readImageFacts(std::span<const std::byte> data, const std::string& name) {
+  SWARD_ASSIGN(const char* const format, checkedFormat(data, name));
+  return withoutExceptions(name, kDamagedRemedy, [&]() -> Result<ImageFacts> {
+    OpenImage opened(data);
+    SWARD_TRY(open(opened, format, name));
+    const OIIO::ImageSpec& spec = opened.spec;
+    return ImageFacts{spec.width, spec.height, spec.nchannels, !spec.format.is_floating_point(),
+                      static_cast<int>(spec.format.basesize()) * 8};
+  });
 }
 
 Result<Image> readImage(const std::filesystem::path& path, Encoding encoding) {

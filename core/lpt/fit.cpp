@@ -33,6 +33,10 @@ Result<void> checkShape(const FitInput& in) {
     return mismatch(std::to_string(in.coverage.size()) + " coverages and " + std::to_string(in.visibility.size()) +
                     " visibilities for " + std::to_string(in.layer.size()) + " texels");
   }
+  for (const auto& sky : in.sky) {
+    if (!sky.empty() && sky.size() != in.layer.size())
+      return mismatch(std::to_string(sky.size()) + " sky terms for " + std::to_string(in.layer.size()) + " texels");
+  }
   const auto high = std::find_if(in.layer.begin(), in.layer.end(), [&](std::uint8_t l) { return l >= in.layers; });
   if (high != in.layer.end()) {
     return mismatch("a texel in layer " + std::to_string(*high) + " of " + std::to_string(in.layers));
@@ -107,9 +111,13 @@ Result<Fit> fit(const FitInput& input, const FitOptions& options, const JobConte
   const detail::FitJob work{input, options, system, result};
   detail::PtmSystem ptm;
   if (options.basis == Basis::Ptm) ptm = detail::makePtmSystem(system, options);
+  const bool common = detail::hasCommonResponse(work);
+  if (common) result.common = detail::fitCommonResponse(work, job);
   base::ProgressCounter progress(job, "Fitting light", static_cast<std::uint64_t>(input.columns));
   base::parallelFor(job, static_cast<std::size_t>(input.columns), kGrain, [&](std::size_t begin, std::size_t end) {
-    if (options.basis == Basis::Lpt) {
+    if (common) {
+      detail::fitResponseBlock(work, static_cast<int>(begin), static_cast<int>(end));
+    } else if (options.basis == Basis::Lpt) {
       detail::fitLptBlock(work, static_cast<int>(begin), static_cast<int>(end));
     } else {
       detail::fitPtmBlock(work, ptm, static_cast<int>(begin), static_cast<int>(end));
@@ -131,6 +139,7 @@ void save(base::ByteWriter& out, const Fit& fit) {
   out.array(fit.weight);
   out.array(fit.path);
   out.array(fit.layerWeight);
+  save(out, fit.common);
 }
 
 namespace {
@@ -144,6 +153,7 @@ bool consistent(const Fit& fit) {
              columns * static_cast<std::size_t>(fit.channels) * static_cast<std::size_t>(fit.perColumn) &&
          fit.rank.size() == columns && fit.condition.size() == columns && fit.weight.size() == columns &&
          fit.path.size() == columns && fit.layerWeight.size() == layerWeights &&
+         (fit.common.empty() || (fit.basis == Basis::Lpt && fit.common.fits(fit.layers, fit.channels))) &&
          std::all_of(fit.path.begin(), fit.path.end(), [](FitPath path) { return path <= FitPath::Orthogonal; }) &&
          std::all_of(fit.coefficients.begin(), fit.coefficients.end(), [](float b) { return std::isfinite(b); });
 }
@@ -162,7 +172,7 @@ bool load(base::ByteReader& in, Fit& fit) {
   in.array(read.weight);
   in.array(read.path);
   in.array(read.layerWeight);
-  if (!in.ok()) return false;
+  if (!load(in, read.common) || !in.ok()) return false;
   if (read.layers > 0 && read.layers <= 256 && read.basis != Basis::Lpt)
     read.perColumn = stackCoefficients(read.basis) * read.layers;
   if (!consistent(read)) return false;

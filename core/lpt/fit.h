@@ -3,8 +3,10 @@
 #include "base/bytes.h"
 #include "base/job.h"
 #include "base/result.h"
+#include "lpt/common_response.h"
 #include "lpt/options.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,7 +25,9 @@ struct FitInput {
   std::span<const float> coverage;             ///< alpha, one a texel
   std::span<const float> visibility;           ///< delta, one a texel
   int visibilityDirections = 16;               ///< m: weights never fall under 1/(2m)
-  std::span<const glm::dvec3> lights;          ///< unit vectors
+  /// What the sky gives a texel, reflected and transmitted, one a texel; empty: not known (LayerCoordinate).
+  std::array<std::span<const float>, 2> sky;
+  std::span<const glm::dvec3> lights;  ///< unit vectors
   int channels = 1;
   /// samples[channel * lights.size() + k][texel] is the response under light k.
   std::vector<std::span<const float>> samples;
@@ -53,6 +57,8 @@ struct Fit {
   /// PTM (and what else has its own coefficients a layer texel): weight of each layer texel, [column][layer], 0 where
   /// there is none; empty for LPT.
   std::vector<float> layerWeight;
+  /// What the columns of an LPT share; then the ten are those of responseBasis. Empty: those of lptBasis.
+  CommonResponse common;
 
   std::span<const float> column(int column, int channel) const {
     return std::span(coefficients)
@@ -64,12 +70,14 @@ struct Fit {
 };
 
 /// Weighted, centred, regularised least squares of science.md section 1 (LPT, equation 4; PTM per layer texel), or the
-/// paper's own (options.paper): least squares of minimum norm in u. Weights are max(delta, 1/(2m)) alpha; delta alone
-/// for a paper's LPT. Texels without a positive, finite weight count as absent. A sample that is not finite leaves out
-/// its row (texel and light) in every channel; the result never holds a NaN. Columns without a row are empty: zero
-/// coefficients. Same bytes on any number of threads. Errors: no lights or one that is not finite, lengths or layers
-/// that do not match, ridges below 0; Error::cancelled(). Throws ContractError for a basis other than Lpt and Ptm:
-/// represent() has them all.
+/// paper's own (options.paper): least squares of minimum norm in u. LayerCoordinate::Response needs sky terms and
+/// lights that tell the six functions of a PTM apart; without them, the coordinate is Depth. In Response, a sample
+/// that is not finite leaves out its texel, and rank is that of the nine functions on distinct coordinates. Weights are
+/// max(delta, 1/(2m)) alpha; delta alone for a paper's LPT. Texels without a positive, finite weight count as absent. A
+/// sample that is not finite leaves out its row (texel and light) in every channel; the result never holds a NaN.
+/// Columns without a row are empty: zero coefficients. Same bytes on any number of threads. Errors: no lights or one
+/// that is not finite, lengths or layers that do not match, ridges below 0; Error::cancelled(). Throws ContractError
+/// for a basis other than Lpt and Ptm: represent() has them all.
 Result<Fit> fit(const FitInput& input, const FitOptions& options, const JobContext& job);
 
 /// One response a texel as a fit of basis Constant: the light of one sun, or a mean over lights.

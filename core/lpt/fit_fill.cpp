@@ -1,7 +1,7 @@
 #include "lpt/fit.h"
 
 #include "base/check.h"
-#include "lpt/pull_push.h"
+#include "image/pull_push.h"
 
 #include <cstddef>
 #include <vector>
@@ -28,7 +28,7 @@ void fillLayer(Fit& fit, std::size_t layer, int width, int height, bool periodic
   };
   for (std::size_t i = 0; i < columns; ++i) weight[i] = fit.layerWeight[i * layers + layer];
   forEach([](float& mine, float& theirs) { mine = theirs; });
-  detail::pullPush(values, weight, width, height, fit.channels * perTexel, periodic);
+  image::pullPush(values, weight, width, height, fit.channels * perTexel, periodic);
   forEach([](float& mine, float& theirs) { theirs = mine; });
 }
 
@@ -39,7 +39,7 @@ void fillEmpty(Fit& fit, int width, int height, bool periodic) {
                  static_cast<std::size_t>(fit.columns));
   if (fit.columns == 0) return;
   if (fit.basis == Basis::Lpt) {
-    detail::pullPush(fit.coefficients, fit.weight, width, height, fit.channels * fit.perColumn, periodic);
+    image::pullPush(fit.coefficients, fit.weight, width, height, fit.channels * fit.perColumn, periodic);
     return;
   }
   for (std::size_t layer = 0; layer < static_cast<std::size_t>(fit.layers); ++layer) {

@@ -91,6 +91,13 @@ void fitLptBlock(const FitJob& job, int begin, int end);
 /// One column of an LPT from its rows: of an irregular column, or of every column of `paper`.
 void fitLptColumnByRows(const FitJob& job, int column, RowScratch& scratch);
 
+/// Whether the columns share a CommonResponse: LayerCoordinate::Response, and the input has what it needs.
+bool hasCommonResponse(const FitJob& job);
+/// By weighted least squares over all texels.
+CommonResponse fitCommonResponse(const FitJob& job, const JobContext& context);
+/// Columns [begin, end) of an LPT on the common response in job.fit.
+void fitResponseBlock(const FitJob& job, int begin, int end);
+
 /// (K x 6) pseudo-inverse that every complete texel of a PTM shares.
 struct PtmSystem {
   std::vector<std::array<double, 6>> inverse;  ///< coefficients per unit of each light's sample

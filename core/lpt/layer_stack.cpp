@@ -2,8 +2,8 @@
 
 #include "base/check.h"
 #include "base/parallel.h"
+#include "image/pull_push.h"
 #include "lpt/polynomial.h"
-#include "lpt/pull_push.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,6 +28,7 @@ void checkInput(const LayerStackInput& in) {
   SWARD_CHECK_EQ(in.reflectance.size(), texels);
   SWARD_CHECK(in.transmittance.empty() || in.transmittance.size() == texels);
   SWARD_CHECK_EQ(in.sky.size(), texels);
+  SWARD_CHECK(in.common.empty() || (in.basis == Basis::Lpt && in.common.fits(in.layers, in.channels)));
 }
 
 std::uint8_t unorm8(float value) {
@@ -53,7 +54,7 @@ class SurfaceImage {
     m_values.assign(m_pixels * kValues, 0.0f);
     m_coverage.assign(m_pixels, 0.0f);
     for (std::size_t p = 0; p < m_pixels; ++p) gather(p);
-    detail::pullPush(m_values, m_coverage, in.width, in.height, static_cast<int>(kValues), periodic);
+    image::pullPush(m_values, m_coverage, in.width, in.height, static_cast<int>(kValues), periodic);
   }
 
   void write(LayerStack& stack) const {
@@ -102,6 +103,7 @@ LayerStack quantise(const LayerStackInput& input, const FitOptions& options, boo
   stack.layers = input.layers;
   stack.channels = input.channels;
   stack.bits = options.bits;
+  stack.common = input.common;
   QuantisedSets sets = quantiseSets(
       input.coefficients, static_cast<std::size_t>(input.channels) * static_cast<std::size_t>(stack.perColumn()),
       options, job);
@@ -135,6 +137,33 @@ void dequantise(const LayerStack& stack, std::size_t columnOrTexel, int channel,
 
 namespace {
 
+float unit(std::uint8_t byte) {
+  return static_cast<float>(byte) / 255.0f;
+}
+
+/// Features of a texel as stored.
+TexelFeatures featuresOf(const LayerStack& stack, std::size_t texel, int layer) {
+  const std::size_t pixels = static_cast<std::size_t>(stack.width) * static_cast<std::size_t>(stack.height);
+  const std::size_t top = texel - static_cast<std::size_t>(layer) * pixels;
+  ColumnFeatures column;
+  TexelFeatures features{};
+  for (std::size_t at = top; at <= texel; at += pixels) {
+    features = column.next(unit(stack.sky[at * 2]), unit(stack.sky[at * 2 + 1]), unit(stack.surface[at * 4 + 3]));
+  }
+  return features;
+}
+
+float onCommonResponse(const LayerStack& stack, const std::array<float, kLptCoefficients>& b, std::size_t texel,
+                       int layer, int channel, float lx, float ly) {
+  const TexelFeatures features = featuresOf(stack, texel, layer);
+  const CommonAtLight common(stack.common, glm::dvec3(static_cast<double>(lx), static_cast<double>(ly), 0.0), layer);
+  const float a = 2.0f * (lx * b[6] + ly * b[7]) + b[9];
+  const float slope = 2.0f * (b[4] * lx + b[5] * ly + b[8]);
+  const float square = 2.0f * (b[0] * lx + b[1] * ly) + b[2];
+  const float g = common.coordinate(layer, channel, features);
+  return std::max(a + g * (slope + g * square) + common.response(layer, channel, features), 0.0f);
+}
+
 /// max(f, 0) of one channel, in the order that the header gives.
 float response(const LayerStack& stack, std::size_t column, std::size_t texel, int layer, int channel, float lx,
                float ly) {
@@ -151,6 +180,7 @@ float response(const LayerStack& stack, std::size_t column, std::size_t texel, i
   }
   std::array<float, kLptCoefficients> b;
   dequantise(stack, column, channel, b);
+  if (!stack.common.empty()) return onCommonResponse(stack, b, texel, layer, channel, lx, ly);
   const float a = lx * (b[0] * lx + 2.0f * (b[3] * ly + b[6])) + ly * (b[1] * ly + 2.0f * b[7]) + b[9];
   const float slope = 2.0f * (b[4] * lx + b[5] * ly + b[8]);
   const float u = static_cast<float>(layer) / static_cast<float>(stack.layers);

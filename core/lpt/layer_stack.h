@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/bytes.h"
+#include "lpt/common_response.h"
 #include "lpt/fit.h"
 #include "lpt/options.h"
 #include "lpt/quantisation.h"
@@ -38,6 +39,8 @@ struct LayerStack {
   std::vector<std::uint8_t> transmission;
   /// RG8 per texel: skyReflected, skyTransmitted, linear.
   std::vector<std::uint8_t> sky;
+  /// Of an LPT: what its columns share (Fit::common); empty: coefficients are those of lptBasis.
+  CommonResponse common;
 
   std::size_t columnCount() const {
     return static_cast<std::size_t>(images) * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -46,8 +49,8 @@ struct LayerStack {
   int perColumn() const { return stackCoefficients(basis); }
   /// Of what coefficients belong to: columns (LPT) or texels (PTM, Constant).
   std::size_t itemCount() const { return basis == Basis::Lpt ? columnCount() : texelCount(); }
-  std::size_t lightingBytes() const { return coefficients.size(); }
-  std::size_t totalBytes() const { return coefficients.size() + surface.size() + transmission.size() + sky.size(); }
+  std::size_t lightingBytes() const { return coefficients.size() + common.bytes(); }
+  std::size_t totalBytes() const { return lightingBytes() + surface.size() + transmission.size() + sky.size(); }
 };
 
 /// Unquantised layers in the same order, as a bake assembles them.
@@ -59,6 +62,7 @@ struct LayerStackInput {
   std::vector<glm::vec3> reflectance;    ///< per texel; anything where coverage is 0
   std::vector<glm::vec3> transmittance;  ///< per texel, or empty
   std::vector<glm::vec2> sky;            ///< per texel
+  CommonResponse common;                 ///< of an LPT, or empty
 };
 
 /// Ranges from the data (with options.clampQuantile cut off; values that are not finite count for nothing), rounding to
@@ -80,7 +84,8 @@ struct Illumination {
 /// The CPU's relighting of one texel, the same as shaders/relight: radiance =
 /// (r max(f_r, 0) + t max(f_t, 0)) E_sun / pi + (r s_r + t s_t) L_sky, and straight coverage in alpha. A sun below the
 /// horizon (z < 0) gives no sun term. Arithmetic in float, in this order: f_c = A + u (B + u C) with u = layer /
-/// layers, A, B and C as atLight has them (PTM: A alone); colours decoded as (byte / 255)^2.
+/// layers, A, B and C as atLight has them (PTM: A alone); with a common response, that plus A + g (B + g C), g the
+/// texel's coordinate and A, B, C by their power in responseBasis. Colours decoded as (byte / 255)^2.
 glm::vec4 relitTexel(const LayerStack& stack, int image, int layer, int x, int y, const Illumination& light);
 
 /// Cache payload. load returns false on damaged data and leaves `stack` as it was.

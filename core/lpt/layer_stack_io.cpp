@@ -21,6 +21,7 @@ bool consistent(const LayerStack& stack) {
   const std::size_t texels = stack.texelCount();
   return stack.ranges.size() == values && stack.coefficients.size() == sets * values * bytes &&
          stack.surface.size() == texels * 4 && stack.sky.size() == texels * 2 &&
+         (stack.common.empty() || (stack.basis == Basis::Lpt && stack.common.fits(stack.layers, stack.channels))) &&
          (stack.transmission.empty() || stack.transmission.size() == texels * 4) &&
          std::all_of(stack.ranges.begin(), stack.ranges.end(), [](const CoefficientRange& range) {
            return std::isfinite(range.scale) && range.scale >= 0.0f && std::isfinite(range.base);
@@ -42,6 +43,7 @@ void save(base::ByteWriter& out, const LayerStack& stack) {
   out.array(stack.surface);
   out.array(stack.transmission);
   out.array(stack.sky);
+  save(out, stack.common);
 }
 
 bool load(base::ByteReader& in, LayerStack& stack) {
@@ -58,7 +60,7 @@ bool load(base::ByteReader& in, LayerStack& stack) {
   in.array(read.surface);
   in.array(read.transmission);
   in.array(read.sky);
-  if (!in.ok() || !consistent(read)) return false;
+  if (!load(in, read.common) || !in.ok() || !consistent(read)) return false;
   stack = std::move(read);
   return true;
 }

@@ -1,8 +1,8 @@
 #include "lpt/marched.h"
 
 #include "base/parallel.h"
+#include "image/pull_push.h"
 #include "lpt/marched_texel.h"
-#include "lpt/pull_push.h"
 #include "trace/fast_floor.h"
 #include "trace/voxel_march.h"
 
@@ -123,7 +123,7 @@ void Marched::fillEmpty(const std::vector<float>& coverage, bool periodic) {
       std::copy(std::begin(all), std::end(all), values.begin() + static_cast<std::ptrdiff_t>(c * kValues));
       weight[c] = coverage[dense(c, layer)];
     }
-    detail::pullPush(values, weight, m_shape.width, m_shape.height, kValues, periodic);
+    image::pullPush(values, weight, m_shape.width, m_shape.height, kValues, periodic);
     for (std::size_t c = 0; c < columns; ++c) {
       if (weight[c] > 0.0f) continue;
       const float* v = &values[c * kValues];

@@ -21,6 +21,12 @@ constexpr int stackCoefficients(Basis basis) {
   return basis == Basis::Lpt ? 10 : basis == Basis::Ptm ? 6 : basis == Basis::Constant ? 1 : 0;
 }
 
+/// What the third variable of an LPT is.
+enum class LayerCoordinate : std::uint8_t {
+  Response,  ///< how bright a texel is expected to be from what is stored of it anyway (CommonResponse)
+  Depth      ///< u = layer / layers, as in the paper
+};
+
 /// Whether it is relit on the processor, for one sun at a time.
 constexpr bool needsSun(Basis basis) {
   return stackCoefficients(basis) == 0;
@@ -32,9 +38,12 @@ constexpr bool needsSun(Basis basis) {
 ///     + layerRidge (b2^2 + b4^2 + b5^2 + b8^2) + lightRidge (b0^2 + b1^2 + b3^2 + b6^2 + b7^2)
 /// A ridge is so relative to the summed weight of all rows, whatever the number of lights and layers, and a column's
 /// result does not change when all its weights are scaled. Rows left out (a sample that is not finite) leave W K and
-/// ubar too. A PTM's texel: the same with one texel and no v.
+/// ubar too. A PTM's texel: the same with one texel and no v. LayerCoordinate::Response: samples less the common
+/// response, v = g - gbar, and the layer ridge on all coefficients that contain v.
 struct FitOptions {
   Basis basis = Basis::Lpt;
+  /// Of Basis::Lpt, without `paper`; Response needs the sky terms of the texels, and is Depth where they are not given.
+  LayerCoordinate coordinate = LayerCoordinate::Response;
   int clusters = 2;           ///< 2 or 4, of Basis::Clustered
   bool paper = false;         ///< no ridge, weights delta alone, not centred: the paper's own fit, for comparison
   double layerRidge = 0.005;  ///< >= 0, on the coefficients that contain v, relative to the summed weight of the rows

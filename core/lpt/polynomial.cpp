@@ -50,6 +50,12 @@ std::array<double, kLptCoefficients> lptBasis(double lx, double ly, double u) {
   return {lx * lx, ly * ly, u * u, 2.0 * lx * ly, 2.0 * lx * u, 2.0 * ly * u, 2.0 * lx, 2.0 * ly, 2.0 * u, 1.0};
 }
 
+std::array<double, kLptCoefficients> responseBasis(double lx, double ly, double g) {
+  const double square = g * g;
+  return {2.0 * lx * square, 2.0 * ly * square, square,   0.0,     2.0 * lx * g,
+          2.0 * ly * g,      2.0 * lx,          2.0 * ly, 2.0 * g, 1.0};
+}
+
 std::array<double, kPtmCoefficients> ptmBasis(double lx, double ly) {
   return {lx * lx, ly * ly, 2.0 * lx * ly, 2.0 * lx, 2.0 * ly, 1.0};
 }

@@ -16,6 +16,11 @@ std::array<double, kLptCoefficients> lptBasis(double lx, double ly, double u);
 /// The six of PTM (equation 1): lx^2, ly^2, 2 lx ly, 2 lx, 2 ly, 1.
 std::array<double, kPtmCoefficients> ptmBasis(double lx, double ly);
 
+/// The same for LayerCoordinate::Response, g the texel's coordinate: what quadratics of the light alone tell is common
+/// to all texels, so that their places hold how the light's direction matters to bright and dark texels. One is unused:
+/// 2 lx g^2, 2 ly g^2, g^2, 0, 2 lx g, 2 ly g, 2 lx, 2 ly, 2 g, 1.
+std::array<double, kLptCoefficients> responseBasis(double lx, double ly, double g);
+
 /// f = A + B u + C u^2 for one light (equation 5).
 struct LayerQuadratic {
   double a = 0.0, b = 0.0, c = 0.0;

@@ -26,6 +26,7 @@ struct Method {
   int bits = 8;  ///< of a stored coefficient
   bool paper = false;
   int clusters = 2;
+  bool depth = false;  ///< LayerCoordinate::Depth, whatever the project says
 
   /// `base` (ridges, clamp) with what the method fixes.
   FitOptions options(FitOptions base) const {
@@ -33,6 +34,7 @@ struct Method {
     base.bits = bits;
     base.paper = paper;
     base.clusters = clusters;
+    if (depth) base.coordinate = LayerCoordinate::Depth;
     return base;
   }
 };
@@ -41,6 +43,7 @@ inline constexpr std::array kMethods{Method{"constant", Basis::Constant, 8, fals
                                      Method{"ptm8", Basis::Ptm, 8, false, 2},
                                      Method{"ptm", Basis::Ptm, 16, false, 2},
                                      Method{"lpt_paper", Basis::Lpt, 8, true, 2},
+                                     Method{"lpt_depth", Basis::Lpt, 8, false, 2, true},
                                      Method{"lpt8", Basis::Lpt, 8, false, 2},
                                      Method{"lpt16", Basis::Lpt, 16, false, 2},
                                      Method{"lpt_clustered2", Basis::Clustered, 8, false, 2},

@@ -130,6 +130,7 @@ double ColumnPolynomials::evaluate(int column, int layer, int channel, const glm
 Represented representLpt(const RepresentationInput& input, const FitOptions& options, bool quantised,
                          const JobContext& job) {
   SWARD_ASSIGN(Fit whole, fitWhole(input, options, job));
+  if (!whole.common.empty()) return storeResponse(input, std::move(whole), options, quantised, job);
   StoredSets sets(std::move(whole.coefficients), static_cast<std::size_t>(whole.channels), kFunctions, options,
                   quantised, job);
   if (job.cancelled()) return Error::cancelled();
@@ -140,7 +141,10 @@ Represented representLpt(const RepresentationInput& input, const FitOptions& opt
 Represented representClustered(const RepresentationInput& input, const FitOptions& options, LayerGroups groups,
                                bool quantised, const JobContext& job) {
   SWARD_CHECK(options.clusters >= 1);
-  SWARD_ASSIGN(const Fit whole, fitWhole(input, options, job));
+  FitOptions lpt = options;
+  lpt.basis = Basis::Lpt;
+  lpt.coordinate = LayerCoordinate::Depth;
+  SWARD_ASSIGN(const Fit whole, fitWhole(input, lpt, job));
   const auto count = static_cast<std::size_t>(options.clusters);
   std::vector<std::uint16_t> start = groups == LayerGroups::Equal
                                          ? equalGroups(input.fit.layers, options.clusters)
@@ -150,8 +154,6 @@ Represented representClustered(const RepresentationInput& input, const FitOption
   FitInput grouped = input.fit;
   grouped.columns *= options.clusters;
   grouped.columnStart = texels;
-  FitOptions lpt = options;
-  lpt.basis = Basis::Lpt;
   SWARD_ASSIGN(Fit fitted, fit(grouped, lpt, job));
   fillGroups(fitted, whole, count);
   StoredSets sets(std::move(fitted.coefficients), static_cast<std::size_t>(fitted.channels), kFunctions, options,

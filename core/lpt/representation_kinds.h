@@ -19,6 +19,10 @@ using Represented = Result<std::unique_ptr<Representation>>;
 Represented representLpt(const RepresentationInput& input, const FitOptions& options, bool quantised,
                          const JobContext& job);
 
+/// The same of a fit that has a common response.
+Represented storeResponse(const RepresentationInput& input, Fit fit, const FitOptions& options, bool quantised,
+                          const JobContext& job);
+
 /// How the layers of a column are put into the groups of Clustered.
 enum class LayerGroups : std::uint8_t {
   Equal,    ///< the same for every column, equally thick
@@ -97,6 +101,28 @@ class ColumnPolynomials final : public Representation {
   std::size_t m_groups;
   std::vector<std::uint16_t> m_groupStart;
   std::uint64_t m_indexBytes;
+};
+
+/// A common response, and what each column differs from it: ten coefficients of responseBasis a column.
+class ResponsePolynomials final : public Representation {
+ public:
+  /// features: one a texel of `texels`.
+  ResponsePolynomials(Texels texels, StoredSets sets, CommonResponse common, std::vector<TexelFeatures> features);
+
+  std::uint64_t lightingBytes() const override { return m_sets.bytes() + m_common.bytes(); }
+  Result<void> relight(const glm::dvec3& light, std::span<const std::span<float>> out,
+                       const JobContext& job) const override;
+  /// Where no texel was sampled: under the sky of its layer's mean texel.
+  double evaluate(int column, int layer, int channel, const glm::dvec3& light) const override;
+
+ private:
+  TexelFeatures featuresAt(std::size_t column, std::size_t layer) const;
+
+  Texels m_texels;
+  StoredSets m_sets;
+  CommonResponse m_common;
+  std::vector<TexelFeatures> m_features;    ///< [texel]
+  std::vector<std::array<float, 2>> m_sky;  ///< [layer]: mean, by coverage
 };
 
 /// First layer of groups 1, 2 ... of every column, [column][groups - 1]: the contiguous groups whose separate LPT fits

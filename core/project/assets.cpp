@@ -13,6 +13,8 @@ void visitAssets(P& project, const Visit& visit) {
     visit("patch.plants[" + std::to_string(i) + "].gltf.path", plant.gltf.path, plant.kind == PlantKind::Gltf);
   }
   visit(std::string("patch.soil.texture"), project.patch.soil.texture, true);
+  visit(std::string("terrain.heightmap.path"), project.terrain.heightmap.path,
+        project.terrain.source == terrain::Source::Heightmap);
 }
 
 /// The same file, its folder's symbolic links followed; the file itself may be a link and keeps its name.
@@ -82,7 +84,9 @@ Result<void> relocate(Project& project, const std::string& where, const fs::path
   visitAssets(project, [&](const std::string& place, const std::string& path, bool) {
     if (place == where) old = path, found = true;
   });
-  if (!found) return Error::badInput("the project names no file there", where, "Choose a plant or the soil's texture.");
+  if (!found)
+    return Error::badInput("the project names no file there", where,
+                           "Choose a plant, the soil's texture or the heightmap.");
   const std::string path = assetPath(file, project.folder);
   visitAssets(project, [&](const std::string& place, std::string& asset, bool) {
     if (place == where || (!old.empty() && asset == old)) asset = path;

@@ -7,6 +7,7 @@
 #include "render/options.h"
 #include "report/options.h"
 #include "scene/options.h"
+#include "terrain/options.h"
 #include "tiles/options.h"
 #include "trace/options.h"
 #include "wither/options.h"
@@ -70,6 +71,7 @@ struct Project {
   tiles::TileOptions tiles;
   leaf::LeafOptions leaf;
   wither::WitherOptions wither;
+  terrain::TerrainOptions terrain;
   scene::SunOptions sun;
   scene::SkyOptions sky;
   render::RenderOptions render;

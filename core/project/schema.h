@@ -34,6 +34,8 @@ void describe(A& a, typename A::template Ref<Project> v) {
   a.field("leaf", v.leaf, of(Role::Colour).says("Leaf colour", "What leaves contain, and how they dry to straw."));
   a.field("wither", v.wither,
           of(Role::Shape).says("Withering", "How the sward goes from green to straw through an autumn."));
+  a.field("terrain", v.terrain,
+          of(Role::Shape).says("Terrain", "Hills and heightmaps under the grass. Nothing is baked anew."));
   a.field("sun", v.sun,
           of(Role::Shape).says("Sun", "Where the sun stands and how strong it is. Nothing is baked anew."));
   a.field("sky", v.sky, of(Role::Shape).says("Sky", "The air: clear or hazy. Nothing is baked anew."));

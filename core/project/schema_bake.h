@@ -120,6 +120,9 @@ void describe(A& a, typename A::template Ref<trace::SamplingOptions> v) {
 template <typename A>
 void describe(A& a, typename A::template Ref<lpt::FitOptions> v) {
   a.field("basis", v.basis, of(Role::Shape).says("Representation", "What is kept of how a texel answers light."));
+  a.field(
+      "coordinate", v.coordinate,
+      of(Role::Shape).expert().says("Layers by", "What tells the layers of a column apart in a layered polynomial."));
   a.field("clusters", v.clusters,
           range(2, 4, "groups")
               .steps(2)

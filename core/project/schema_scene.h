@@ -7,6 +7,59 @@
 namespace sward::project {
 
 template <typename A>
+void describe(A& a, typename A::template Ref<terrain::HillOptions> v) {
+  a.field("seed", v.seed, of(Role::Shape).says("Seed", "Another number grows other hills."));
+  a.field("amplitudeM", v.amplitudeM,
+          range(0.0, 5000.0, "m")
+              .decades(0.5, 500.0)
+              .says("Height", "From the lowest valley to the highest top. The ground at the origin stays at 0."));
+  a.field("featureSizeM", v.featureSizeM,
+          range(1.0, 100000.0, "m").decades(10.0, 5000.0).says("Hill size", "Distance between neighbouring hills."));
+  a.field("octaves", v.octaves,
+          range(1, 7, "octaves").says("Detail", "Sizes of hills, each half as large as the one before."));
+  a.field("ruggedness", v.ruggedness,
+          percent(0.0, 1.0).says("Ruggedness", "From round downs to sharp ridges with much small relief."));
+}
+
+template <typename A>
+void describe(A& a, typename A::template Ref<terrain::HeightmapOptions> v) {
+  a.field("path", v.path,
+          label()
+              .file(".png .tif .tiff .exr .asc")
+              .says("File", "A PNG, TIFF or EXR (its first channel), or an ESRI ASCII grid, relative to the project."));
+  a.field("extentXM", v.extentXM,
+          range(0.0, 1e6, "m")
+              .soft(0.0, 5000.0)
+              .says("Width", "West to east, from the first sample to the last. 0 takes the file's own cell size."));
+  a.field(
+      "heightLowM", v.heightLowM,
+      range(-12000.0, 12000.0, "m").soft(-100.0, 100.0).says("Lowest", "Height of black, in images of 8 or 16 bits."));
+  a.field(
+      "heightHighM", v.heightHighM,
+      range(-12000.0, 12000.0, "m").soft(0.0, 500.0).says("Highest", "Height of white, in images of 8 or 16 bits."));
+  a.field("verticalScale", v.verticalScale,
+          range(-10000.0, 10000.0, "m")
+              .soft(0.0, 5.0)
+              .says("Vertical scale", "Metres that a value of 1 stands for, in float images and grids."));
+  a.field("smoothM", v.smoothM,
+          range(0.0, 1000.0, "m")
+              .soft(0.0, 20.0)
+              .says("Smoothing", "Radius of a blur. Raise it where 8 bits show as terraces."));
+  a.field("position", v.position,
+          range(-1e6, 1e6, "m")
+              .soft(-2000.0, 2000.0)
+              .says("Position", "Where the map's middle lies, east and north; the third is added to all heights."));
+}
+
+template <typename A>
+void describe(A& a, typename A::template Ref<terrain::TerrainOptions> v) {
+  a.field("source", v.source, of(Role::Shape).says("Form", "What the ground is: level, hills, or a map of heights."));
+  a.choice("hills", v.hills, v.source == terrain::Source::Hills, of(Role::Shape).says("Hills", "Grown hills."));
+  a.choice("heightmap", v.heightmap, v.source == terrain::Source::Heightmap,
+           of(Role::Shape).says("Heightmap", "Heights from a file."));
+}
+
+template <typename A>
 void describe(A& a, typename A::template Ref<scene::SunAngles> v) {
   a.field("azimuthDeg", v.azimuthDeg,
           angle(0.0, 360.0).says("Azimuth", "Compass direction of the light, clockwise from north: 90 is east."));

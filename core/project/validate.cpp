@@ -293,6 +293,19 @@ void checkTileCounts(const Project& project, Problems& out) {
   }
 }
 
+void checkTerrain(const Project& project, Problems& out) {
+  const terrain::TerrainOptions& t = project.terrain;
+  if (t.source != terrain::Source::Heightmap) return;
+  if (t.heightmap.path.empty()) {
+    return out.error("terrain.heightmap.path", "the terrain names no heightmap",
+                     "Give a PNG, TIFF, EXR or .asc file, relative to the project, or set terrain.source to hills.");
+  }
+  checkAsset(project, "terrain.heightmap.path", t.heightmap.path, out);
+  if (!(t.heightmap.heightHighM > t.heightmap.heightLowM)) {
+    out.warning("terrain.heightmap.heightHighM", "white is no higher than black", "Give more than heightLowM.");
+  }
+}
+
 void checkNeverFalls(const base::Curve& curve, const std::string& where, Problems& out) {
   const auto& points = curve.points();
   for (std::size_t i = 1; i < points.size(); ++i) {
@@ -375,6 +388,7 @@ std::vector<Problem> validate(const Project& project) {
   checkTileSizes(project, problems);
   checkTileCounts(project, problems);
   checkWither(project.wither, problems);
+  checkTerrain(project, problems);
   checkViews(project, problems);
   checkRest(project, problems);
   return std::move(problems.list());

@@ -49,6 +49,12 @@ constexpr auto words(lpt::Basis) {
        {lpt::Basis::Sampled, "sampled", "Traced for this sun",
         "Nothing is fitted: light is traced for the sun as it stands, and again for each new one."}}};
 }
+constexpr auto words(lpt::LayerCoordinate) {
+  return std::array<Word<lpt::LayerCoordinate>, 2>{
+      {{lpt::LayerCoordinate::Response, "response", "Expected light",
+        "How bright the sky and the plants above let each texel be: much truer, at the same size."},
+       {lpt::LayerCoordinate::Depth, "depth", "Depth", "The layer's depth alone, as first published."}}};
+}
 constexpr auto words(report::ErrorBound) {
   return std::array<Word<report::ErrorBound>, 5>{
       {{report::ErrorBound::None, "none", "None", "What the project says is baked, whatever its error."},
@@ -56,6 +62,12 @@ constexpr auto words(report::ErrorBound) {
        {report::ErrorBound::Psnr, "psnr", "PSNR", "Peak signal to noise of display values, dB: at least."},
        {report::ErrorBound::Ssim, "ssim", "SSIM", "Structural similarity of display values, 0 to 1: at least."},
        {report::ErrorBound::Flip, "flip", "FLIP", "What an eye notices when it flips between the two, 0 to 1."}}};
+}
+constexpr auto words(terrain::Source) {
+  return std::array<Word<terrain::Source>, 3>{{{terrain::Source::Flat, "flat", "Flat", "Level ground without end."},
+                                               {terrain::Source::Hills, "hills", "Hills", "Hills grown from a seed."},
+                                               {terrain::Source::Heightmap, "heightmap", "Heightmap",
+                                                "Heights from an image (PNG, TIFF, EXR) or an ESRI ASCII grid."}}};
 }
 constexpr auto words(tiles::SeamMethod) {
   return std::array<Word<tiles::SeamMethod>, 2>{

@@ -4,6 +4,9 @@
 #include "project/project.h"
 #include "render/renderer.h"
 #include "scene/sun_sky.h"
+#include "terrain/heightmap.h"
+
+#include <vector>
 
 namespace sward::render {
 
@@ -15,5 +18,12 @@ Result<scene::Daylight> daylightOf(const project::Project& project);
 /// ask this. Errors: a view that gives no camera.
 Result<Frame> planFrame(const project::Project& project, const scene::View& view, const scene::Daylight& daylight,
                         double addedEv = 0.0);
+
+/// A project's terrain for Renderer::setTerrain(), and what is odd about its file.
+Result<terrain::Terrain> terrainOf(const project::Project& project, const JobContext& job = {});
+
+/// What validate() cannot tell without the heights: a terrain that cannot be made, oddities of its file, and views that
+/// stand below the ground (warnings).
+std::vector<project::Problem> terrainProblems(const project::Project& project);
 
 }  // namespace sward::render

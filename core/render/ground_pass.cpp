@@ -17,7 +17,6 @@ constexpr double kDiagonalFade = 0.45;
 constexpr unsigned kSlices = 1, kBladesX = 2, kBladesY = 4;
 /// Rays under the horizon by less than this may meet the sky within their pixel.
 constexpr double kHorizonMargin = 0.004;
-constexpr double kMacroFadePixels = 2.0;  ///< of the macro scale to a pixel where it has faded out
 
 double smoothstep(double low, double high, double x) {
   const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
@@ -65,38 +64,6 @@ SetMask facingSets(const glm::dvec3& d, unsigned families) {
   if ((families & kBladesX) != 0) sets.set(d.x < 0.0 ? 1 : 2);
   if ((families & kBladesY) != 0) sets.set(d.y < 0.0 ? 3 : 4);
   return sets;
-}
-
-double positiveModulo(double value, double period) {
-  return value - period * std::floor(value / period);
-}
-
-/// World origin is the south-west corner of the map's middle cell; cells repeat beyond the map. Shaders count cells
-/// from the eye's own, so that floats stay small.
-void setPlace(gpu::Program& program, const PassInput& input, const Frame& frame) {
-  const bake::GroundBake& ground = *input.ground;
-  const double side = ground.tileSideM();
-  const glm::dvec2 eye = glm::dvec2(frame.camera.position) / side;
-  const glm::dvec2 cell = glm::floor(eye);
-  const double pixelAngle = 2.0 * frame.camera.tanHalfWidth / frame.width;
-  setIfUsed(program, "u_eyeTiles", glm::vec2(eye - cell));
-  setIfUsed(program, "u_eyeM", static_cast<float>(std::max(frame.camera.position.z, 1e-3)));
-  setIfUsed(program, "u_tilesPerM", static_cast<float>(1.0 / side));
-  setIfUsed(program, "u_heightM", static_cast<float>(std::max(ground.heightM, 1e-4)));
-  setIfUsed(program, "u_mapSize", glm::vec2(ground.map.width, ground.map.height));
-  setIfUsed(program, "u_mapBorder", static_cast<float>(kMapBorder));
-  setIfUsed(program, "u_mapStride", static_cast<float>(ground.map.width + 2 * kMapBorder));
-  setIfUsed(program, "u_mapInverse", 1.0f / glm::vec2(ground.map.width, ground.map.height));
-  setIfUsed(program, "u_mapOffset",
-            glm::vec2(positiveModulo(cell.x + ground.map.width / 2, ground.map.width),
-                      positiveModulo(cell.y + ground.map.height / 2, ground.map.height)));
-  setIfUsed(program, "u_gridBendTiles", static_cast<float>(frame.options.gridBendM / side));
-  setIfUsed(program, "u_bendTurns", static_cast<float>(side / scene::kBendM));
-  const glm::dvec2 turns = cell * (side / scene::kBendM);
-  setIfUsed(program, "u_bendPhase",
-            glm::vec2(positiveModulo(turns.y, 1.0), positiveModulo(turns.x + scene::kBendPhaseTurns, 1.0)));
-  setIfUsed(program, "u_macroFadePerM",
-            static_cast<float>(kMacroFadePixels * pixelAngle / std::max(frame.options.macroScaleM, side)));
 }
 
 void setSets(gpu::Program& program, const PassInput& input) {
@@ -159,6 +126,8 @@ void setLight(gpu::Program& program, const PassInput& input, const Frame& frame,
   setIfUsed(program, "u_exposure", static_cast<float>(exposureOf(frame) * weight));
   setIfUsed(program, "u_hazePerM", static_cast<float>(input.hazePerM));
   setIfUsed(program, "u_sunDirection", glm::vec3(input.sunDirection));
+  setIfUsed(program, "u_sunIrradiance", glm::vec3(input.sunIrradiance));
+  setIfUsed(program, "u_meanSky", glm::vec3(input.meanSky));
   setIfUsed(program, "u_sunDisc", glm::vec3(input.sunIrradiance * scene::kSunDiscGain));
 }
 
@@ -204,14 +173,37 @@ BlockPlan planBlocks(const Frame& frame, const bake::GroundBake& ground, bool ha
   return plan;
 }
 
+BlockPlan planTerrainBlocks(const Frame& frame, bool hasBlades) {
+  BlockPlan plan;
+  auto& blocks = plan.blocks[BlockPlan::kSky | kSlices | (hasBlades ? kBladesX | kBladesY : 0u)];
+  for (int y = 0; y < frame.height; y += BlockPlan::kBlock) {
+    for (int x = 0; x < frame.width; x += BlockPlan::kBlock) {
+      if (x >= frame.drawn().end || x + BlockPlan::kBlock <= frame.drawn().begin) continue;
+      blocks.push_back(static_cast<std::uint32_t>(x) | (static_cast<std::uint32_t>(y) << 16));
+    }
+  }
+  plan.sets.set(kSliceSet);
+  if (!hasBlades) return plan;
+  // Only directions within the picture, whose axes are those of the ground: slopes do not turn plants.
+  constexpr int kProbes = 16;
+  const double aspect = static_cast<double>(frame.width) / frame.height;
+  for (int i = 0; i < (kProbes + 1) * (kProbes + 1); ++i) {
+    const glm::dvec2 place(-0.05 + 1.1 * (i % (kProbes + 1)) / kProbes, -0.05 + 1.1 * (i / (kProbes + 1)) / kProbes);
+    plan.sets |= facingSets(frame.camera.rayDirection(place.x, place.y, aspect), kBladesX | kBladesY);
+  }
+  return plan;
+}
+
 GroundPass GroundPass::create() {
   GroundPass pass;
   pass.m_vertices = gpu::VertexArray::make();
   return pass;
 }
 
-Result<gpu::Program*> GroundPass::variant(ProgramCache& programs, const Frame& frame, unsigned needs) const {
-  const GroundMethod method = frame.options.method;
+Result<gpu::Program*> GroundPass::variant(ProgramCache& programs, const Frame& frame, unsigned needs,
+                                          bool terrain) const {
+  // The blended methods know level ground alone.
+  const GroundMethod method = terrain ? GroundMethod::March : frame.options.method;
   if (needs == BlockPlan::kSky)
     return programs.blocks("ground/sky.frag", {}, {"t_blocks", "t_sky", "u_sunDisc", "u_exposure"});
   const std::string file = method == GroundMethod::March ? "ground/march.frag" : "ground/blended.frag";
@@ -219,6 +211,7 @@ Result<gpu::Program*> GroundPass::variant(ProgramCache& programs, const Frame& f
                   {"SWARD_SKY", (needs & BlockPlan::kSky) != 0 ? "1" : "0"}};
   if (method != GroundMethod::March)
     defines.emplace_back("SWARD_PAPER_WEIGHTS", method == GroundMethod::BlendedPaper ? "1" : "0");
+  if (terrain) defines.emplace_back("SWARD_TERRAIN", "1");
   std::vector<std::string> uniforms{"t_blocks",   "t_relit",   "t_map",          "u_exposure",
                                     "u_eyeTiles", "u_heightM", "u_relightScale", "u_mapOffset"};
   if (frame.mode.plain()) {
@@ -226,7 +219,8 @@ Result<gpu::Program*> GroundPass::variant(ProgramCache& programs, const Frame& f
   } else {
     const bool tiles = frame.mode.quantity == ViewQuantity::Tiles;
     defines.emplace_back("SWARD_MODE", tiles ? "2" : "1");
-    uniforms.insert(uniforms.end(), {"u_sampleWeight", "u_soilWeight"});
+    uniforms.insert(uniforms.end(), {"u_sampleWeight"});
+    if (!terrain) uniforms.emplace_back("u_soilWeight");
   }
   return programs.blocks(file, defines, uniforms);
 }
@@ -251,14 +245,15 @@ Result<void> GroundPass::draw(ProgramCache& programs, const PassInput& input, co
       first += count;
       continue;
     }
-    SWARD_ASSIGN(gpu::Program * program, variant(programs, frame, needs));
+    SWARD_ASSIGN(gpu::Program * program, variant(programs, frame, needs, input.terrain != nullptr));
     program->use();
     bindTextures(*program, input, m_blocksView);
+    if (input.terrain != nullptr) input.terrain->bind(*program, *input.mesh);
     program->set("u_firstBlock", static_cast<int>(first));
     program->set("u_targetSize", glm::ivec2(frame.width, frame.height));
     program->set("u_blockSize", BlockPlan::kBlock);
     setView(*program, frame, sample);
-    setPlace(*program, input, frame);
+    setPlace(*program, *input.ground, frame);
     setSets(*program, input);
     setLight(*program, input, frame, weight);
     setMode(*program, frame, weight);

@@ -5,6 +5,7 @@
 #include "render/programs.h"
 #include "render/relit_ground.h"
 #include "render/renderer.h"
+#include "render/terrain_pass.h"
 
 #include <array>
 #include <vector>
@@ -21,6 +22,9 @@ struct PassInput {
   glm::dvec3 sunDirection{0.0, 0.0, 1.0};
   glm::dvec3 sunIrradiance{0.0};
   double hazePerM = 0.0;
+  glm::dvec3 meanSky{0.0};            ///< radiance
+  TerrainPass* terrain = nullptr;     ///< nothing: level ground
+  const TerrainMesh* mesh = nullptr;  ///< of the frame, where there is a terrain
 };
 
 /// The blocks of a frame, sorted by what their rays need: bits of families of planes (1 slices, 2 blades normal to x, 4
@@ -32,6 +36,8 @@ struct BlockPlan {
   SetMask sets;                                       ///< relit sets that the frame reads
 };
 BlockPlan planBlocks(const Frame& frame, const bake::GroundBake& ground, bool hasBlades);
+/// Over a terrain any ray may need anything.
+BlockPlan planTerrainBlocks(const Frame& frame, bool hasBlades);
 
 /// Draws the ground and the sky, a variant of the shader for each sort of block.
 class GroundPass {
@@ -44,7 +50,7 @@ class GroundPass {
                     int sample, double weight);
 
  private:
-  Result<gpu::Program*> variant(ProgramCache& programs, const Frame& frame, unsigned needs) const;
+  Result<gpu::Program*> variant(ProgramCache& programs, const Frame& frame, unsigned needs, bool terrain) const;
   gpu::VertexArray m_vertices;
   gpu::Buffer m_blocks;
   gpu::Texture m_blocksView;

@@ -1,14 +1,17 @@
 #include "render/light_terms.h"
 
+#include "lpt/polynomial.h"
+
 namespace sward::render {
 
-LightTerms lightTerms(lpt::Basis basis, int channels, std::span<const lpt::CoefficientRange> ranges,
-                      const glm::dvec3& light) {
+LightTerms lightTerms(lpt::Basis basis, lpt::LayerCoordinate coordinate, int channels,
+                      std::span<const lpt::CoefficientRange> ranges, const glm::dvec3& light) {
   const double x = light.x, y = light.y;
-  const std::array<double, 10> lptFunctions{x * x,   y * y,   1.0,     2.0 * x * y, 2.0 * x,
-                                            2.0 * y, 2.0 * x, 2.0 * y, 2.0,         1.0};
-  // Which of A, B, C a coefficient goes to: b2 is C, b4, b5, b8 make B.
-  constexpr std::array<int, 10> lptTerm{0, 0, 2, 0, 1, 1, 0, 0, 1, 0};
+  const bool depth = coordinate == lpt::LayerCoordinate::Depth;
+  const std::array<double, 10> lptFunctions = depth ? lpt::lptBasis(x, y, 1.0) : lpt::responseBasis(x, y, 1.0);
+  // Which of A, B, C a coefficient goes to: b2 is C, b4, b5, b8 make B; of a response b0 and b1 are C too.
+  const std::array<int, 10> lptTerm =
+      depth ? std::array{0, 0, 2, 0, 1, 1, 0, 0, 1, 0} : std::array{2, 2, 2, 0, 1, 1, 0, 0, 1, 0};
   const std::array<double, 6> ptmFunctions{x * x, y * y, 2.0 * x * y, 2.0 * x, 2.0 * y, 1.0};
   const int count = lpt::stackCoefficients(basis);
   LightTerms terms;

@@ -23,7 +23,12 @@ Result<gpu::Program*> ProgramCache::compute(const std::string& file, const Defin
 
 Result<gpu::Program*> ProgramCache::blocks(const std::string& file, const Defines& defines,
                                            const std::vector<std::string>& uniforms) {
-  return get({{{GL_VERTEX_SHADER, "ground/block.vert"}, {GL_FRAGMENT_SHADER, file}}, defines, uniforms});
+  return drawing("ground/block.vert", file, defines, uniforms);
+}
+
+Result<gpu::Program*> ProgramCache::drawing(const std::string& vertexFile, const std::string& file,
+                                            const Defines& defines, const std::vector<std::string>& uniforms) {
+  return get({{{GL_VERTEX_SHADER, vertexFile}, {GL_FRAGMENT_SHADER, file}}, defines, uniforms});
 }
 
 Result<gpu::Program*> ProgramCache::get(const gpu::ProgramSource& source) {

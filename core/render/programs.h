@@ -22,6 +22,10 @@ class ProgramCache {
   Result<gpu::Program*> blocks(const std::string& file, const Defines& defines,
                                const std::vector<std::string>& uniforms);
 
+  /// Any vertex shader with a fragment shader.
+  Result<gpu::Program*> drawing(const std::string& vertexFile, const std::string& file, const Defines& defines,
+                                const std::vector<std::string>& uniforms);
+
  private:
   Result<gpu::Program*> get(const gpu::ProgramSource& source);
   std::map<std::string, gpu::Program> m_programs;

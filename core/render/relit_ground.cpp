@@ -55,6 +55,7 @@ RelitGround::Stack::Stack(const lpt::LayerStack& stack)
       channels(stack.channels),
       bits(stack.bits),
       ranges(stack.ranges),
+      common(stack.common),
       coefficients(bytesOf(stack.coefficients)),
       surface(bytesOf(stack.surface)),
       transmission(bytesOf(stack.transmission)),
@@ -223,11 +224,21 @@ Result<void> RelitGround::relightBlades(ProgramCache& programs, std::size_t side
 LightTerms RelitGround::termsOf(const Stack& stack) const {
   if (m_mode.quantity == ViewQuantity::Luminance && !(m_light.sunDirection.z >= 0.0)) return {};
   if (m_mode.quantity != ViewQuantity::Coefficient)
-    return lightTerms(stack.basis, stack.channels, stack.ranges, m_light.sunDirection);
+    return lightTerms(stack.basis, stack.common.empty() ? lpt::LayerCoordinate::Depth : lpt::LayerCoordinate::Response,
+                      stack.channels, stack.ranges, m_light.sunDirection);
   const int channel = static_cast<int>(m_mode.channel);
   // The soil has other coefficients than grass, and is not shown.
   if (&stack == &m_stacks[1]) return {};
   return coefficientTerms(stack.basis, stack.ranges, channel, m_mode.coefficient, m_coefficientRange);
+}
+
+/// t_common of shaders/relight: nothing where a coefficient alone is shown, or no light falls.
+std::vector<float> RelitGround::commonTerms(const Stack& stack) const {
+  const lpt::CommonAtLight common(stack.common, m_light.sunDirection);
+  const std::span<const float> weights = common.weights();
+  if (m_mode.quantity == ViewQuantity::Coefficient || !(m_light.sunDirection.z >= 0.0))
+    return std::vector<float>(weights.size(), 0.0f);
+  return {weights.begin(), weights.end()};
 }
 
 /// What the variants of relight.comp for view modes need beside the rest.
@@ -245,6 +256,7 @@ Result<void> RelitGround::relightStack(ProgramCache& programs, const Stack& stac
   const bool slices = &stack == &m_stacks[0] || &stack == &m_stacks[1];
   const int block = withMip ? 2 : 1;
   Defines defines{{"SWARD_LPT", stack.basis == lpt::Basis::Lpt ? "1" : "0"},
+                  {"SWARD_COMMON", stack.common.empty() ? "0" : "1"},
                   {"SWARD_PER_ITEM", std::to_string(lpt::stackCoefficients(stack.basis))},
                   {"SWARD_CHANNELS", std::to_string(stack.channels)},
                   {"SWARD_BITS", std::to_string(stack.bits)},
@@ -270,6 +282,14 @@ Result<void> RelitGround::relightStack(ProgramCache& programs, const Stack& stac
   stack.surfaceView.bind(1);
   stack.skyView.bind(2);
   stack.transmissionView.bind(3);
+  gpu::Buffer common;
+  gpu::Texture commonView;
+  if (!stack.common.empty()) {
+    common = gpu::Buffer(bytesOf(commonTerms(stack)));
+    commonView = gpu::Texture::ofBuffer(GL_R32F, common);
+    commonView.bind(5);
+    setIfUsed(*program, "t_common", 5);
+  }
   setIfUsed(*program, "u_weights", std::span<const float>(terms.weights));
   setIfUsed(*program, "u_constants", std::span<const float>(terms.constants));
   setIfUsed(*program, "u_sun", glm::vec3(m_light.sunIrradiance / std::numbers::pi / m_scale));

@@ -57,6 +57,7 @@ class RelitGround {
     lpt::Basis basis;
     int width, height, images, layers, channels, bits;
     std::vector<lpt::CoefficientRange> ranges;
+    lpt::CommonResponse common;
     gpu::Buffer coefficients, surface, transmission, sky;
     gpu::Texture coefficientsView, surfaceView, transmissionView, skyView;
     gpu::Buffer condition, visibility;  ///< of an inspection
@@ -67,6 +68,7 @@ class RelitGround {
 
   Result<void> relightStack(ProgramCache& programs, const Stack& stack, const Target& target);
   LightTerms termsOf(const Stack& stack) const;
+  std::vector<float> commonTerms(const Stack& stack) const;
   void setQuantity(gpu::Program& program, const Stack& stack, bool slices) const;
   Result<void> relightSlices(ProgramCache& programs);
   Result<void> relightBlades(ProgramCache& programs, std::size_t side);

@@ -3,11 +3,13 @@
 #include "gpu/objects.h"
 #include "render/ground_pass.h"
 #include "render/macro_map.h"
+#include "render/pass_view.h"
 #include "render/programs.h"
 #include "render/relit_ground.h"
 #include "render/sky_map.h"
 #include "render/texel_pass.h"
 #include "render/texel_set.h"
+#include "render/terrain_pass.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,6 +46,7 @@ Result<void> checkFrame(const Frame& frame) {
 struct Drawing::Impl {
   Frame frame;
   BlockPlan plan;
+  TerrainMesh mesh;  ///< where there is a terrain
   gpu::Texture target;
   gpu::Framebuffer framebuffer;
   Legend legend;  ///< of the frame's mode
@@ -99,6 +102,8 @@ struct Renderer::Impl {
   TexelPass texelPass;
   std::optional<TexelSet> texels;
   bool texelsLit = false;
+  std::shared_ptr<const terrain::HeightField> field;
+  std::optional<TerrainPass> terrain;  ///< of the field, where there is one
   std::optional<scene::Daylight> daylight;
   double hazeKm = 0.0;
   std::uint64_t revision = 1;  ///< of ground and light
@@ -146,16 +151,30 @@ struct Renderer::Impl {
   tiles::TileMap madeMap;      ///< this map and
   double madeSideM = 0.0;      ///< tiles of this size
 
-  PassInput input() const {
-    return {ground.get(), &*relit, &map, &sky, &horizon, daylight->sunDirection(), daylight->sunIrradiance(),
-            hazePerM()};
+  PassInput input(const Drawing::Impl& drawing) {
+    return {ground.get(),
+            relit ? &*relit : nullptr,
+            &map,
+            &sky,
+            &horizon,
+            daylight->sunDirection(),
+            daylight->sunIrradiance(),
+            hazePerM(),
+            daylight->meanSkyRadiance(),
+            terrain ? &*terrain : nullptr,
+            &drawing.mesh};
   }
 
-  TexelPassInput texelInput() const {
-    return {&*texels, &sky, &horizon, daylight->sunDirection(), daylight->sunIrradiance(), hazePerM()};
+  Result<void> setTexels(std::shared_ptr<const bake::GroundBake> bake) {
+    SWARD_ASSIGN(TexelSet set, TexelSet::create(bake->texels));
+    SWARD_TRY(context.checkErrors("uploading the texels"));
+    texels = std::move(set);
+    texelsLit = false;
+    ground = std::move(bake);
+    macro.reset();
+    ++revision;
+    return {};
   }
-
-  double hazePerM() const { return hazeKm > 0.0 ? 1.0 / (hazeKm * kMetresPerKilometre) : 0.0; }
 
   Result<void> lightTexels() {
     if (texelsLit) return {};
@@ -173,12 +192,17 @@ struct Renderer::Impl {
     if (!drawing.frame.mode.plain()) {
       return Error::badInput("texels have no view modes", "render.method", "Draw the plain picture, or the layers.");
     }
+    drawing.mesh = terrain ? terrain->plan(drawing.frame, shellM(), hazePerM()) : TerrainMesh();
     SWARD_TRY(lightTexels());
+    makeMap(drawing.frame.options);
     clear(drawing);
     drawing.drawn = 0;
     drawing.revision = revision;
     return {};
   }
+
+  double hazePerM() const { return hazeKm > 0.0 ? 1.0 / (hazeKm * kMetresPerKilometre) : 0.0; }
+  double shellM() const { return std::max(ground->heightM, 1e-4); }
 
   Result<void> begin(Drawing::Impl& drawing, const Frame& frame) {
     SWARD_TRY(checkFrame(frame));
@@ -187,7 +211,9 @@ struct Renderer::Impl {
     drawing.frame = frame;
     SWARD_TRY(makeTarget(drawing));
     if (frame.options.method == GroundMethod::Texels) return beginTexels(drawing);
-    drawing.plan = planBlocks(frame, *ground, relit->hasBlades());
+    drawing.mesh = terrain ? terrain->plan(frame, shellM(), hazePerM()) : TerrainMesh();
+    drawing.plan =
+        terrain ? planTerrainBlocks(frame, relit->hasBlades()) : planBlocks(frame, *ground, relit->hasBlades());
     SWARD_TRY(relit->setMode(frame.mode, *ground));
     SWARD_TRY(relit->relight(programs, drawing.plan.sets));
     makeMap(frame.options);
@@ -210,6 +236,10 @@ struct Renderer::Impl {
       SWARD_TRY(relit->setMode(drawing.frame.mode, *ground));
       SWARD_TRY(relit->relight(programs, drawing.plan.sets));
     }
+    if (terrain) {
+      SWARD_TRY(terrain->drawEntries(programs, drawing.frame, drawing.mesh, shellM(),
+                                     sampleOffset(drawing.frame, drawing.drawn)));
+    }
     drawing.framebuffer.bind();
     if (samples > 1) {
       gpu::gl().BlendFunc(GL_ONE, GL_ONE);
@@ -220,8 +250,9 @@ struct Renderer::Impl {
       gpu::gl().Enable(GL_SCISSOR_TEST);
     }
     const double weight = 1.0 / samples;
-    Result<void> drawn = drawsTexels ? texelPass.draw(programs, texelInput(), drawing.frame, drawing.drawn, weight)
-                                     : pass.draw(programs, input(), drawing.frame, drawing.plan, drawing.drawn, weight);
+    Result<void> drawn = drawsTexels
+                             ? texelPass.draw(programs, *texels, input(drawing), drawing.frame, drawing.drawn, weight)
+                             : pass.draw(programs, input(drawing), drawing.frame, drawing.plan, drawing.drawn, weight);
     gpu::gl().Disable(GL_BLEND);
     gpu::gl().Disable(GL_SCISSOR_TEST);
     SWARD_TRY(std::move(drawn));
@@ -258,6 +289,8 @@ Result<void> Renderer::setGround(std::shared_ptr<const bake::GroundBake> ground)
   SWARD_TRY(impl.context.makeCurrent());
   if (!ground) return Error::failed("there is no ground", "render");
   impl.relit.reset();
+  impl.texels.reset();
+  if (ground->texels) return impl.setTexels(std::move(ground));
   SWARD_ASSIGN(RelitGround relit, RelitGround::create(*ground));
   impl.macro.reset();
   ++impl.revision;
@@ -268,16 +301,17 @@ Result<void> Renderer::setGround(std::shared_ptr<const bake::GroundBake> ground)
   return {};
 }
 
-Result<void> Renderer::setTexels(std::shared_ptr<const bake::TexelBake> texels) {
+Result<void> Renderer::setTerrain(std::shared_ptr<const terrain::HeightField> field) {
   Impl& impl = *m_impl;
   SWARD_TRY(impl.context.makeCurrent());
-  impl.texels.reset();
-  SWARD_ASSIGN(TexelSet set, TexelSet::create(std::move(texels)));
-  SWARD_TRY(impl.context.checkErrors("uploading the texels"));
-  impl.texels = std::move(set);
-  impl.texelsLit = false;
+  if (field == impl.field) return {};
+  impl.terrain.reset();
+  impl.field = field;
   ++impl.revision;
-  return {};
+  if (!field) return {};
+  SWARD_ASSIGN(impl.terrain, TerrainPass::create(std::move(field)));
+  if (impl.daylight) impl.terrain->setSun(impl.daylight->sunDirection());
+  return impl.context.checkErrors("uploading the terrain");
 }
 
 Result<void> Renderer::setInspection(const bake::Inspection& inspection) {
@@ -300,6 +334,7 @@ void Renderer::setDaylight(const scene::Daylight& daylight, double hazeKm) {
   impl.horizon = gpu::Texture::ofBuffer(GL_RGBA32F, impl.horizonValues);
   impl.texelsLit = false;
   if (impl.relit) impl.relit->setIllumination(illuminationOf(daylight));
+  if (impl.terrain) impl.terrain->setSun(daylight.sunDirection());
 }
 
 Result<void> Renderer::begin(Drawing& drawing, const Frame& frame) {

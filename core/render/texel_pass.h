@@ -2,6 +2,7 @@
 
 #include "base/result.h"
 #include "gpu/objects.h"
+#include "render/ground_pass.h"
 #include "render/programs.h"
 #include "render/renderer.h"
 #include "render/texel_set.h"
@@ -13,23 +14,14 @@
 
 namespace sward::render {
 
-/// What the texels' pass reads, beside the frame.
-struct TexelPassInput {
-  const TexelSet* texels = nullptr;
-  const gpu::Texture* sky = nullptr;      ///< makeSkyTexture
-  const gpu::Texture* horizon = nullptr;  ///< makeHorizonBuffer, RGBA32F
-  glm::dvec3 sunDirection{0.0, 0.0, 1.0};
-  glm::dvec3 sunIrradiance{0.0};
-  double hazePerM = 0.0;
-};
-
-/// Draws a flat ground of texels and the sky.
+/// Draws a ground of texels, level or over a terrain, and the sky.
 class TexelPass {
  public:
   static TexelPass create();
   /// One sample into the bound framebuffer, which has the frame's size; `weight` multiplies the radiance (with the
-  /// frame's exposure).
-  Result<void> draw(ProgramCache& programs, const TexelPassInput& input, const Frame& frame, int sample, double weight);
+  /// frame's exposure). `input` needs no relit layers.
+  Result<void> draw(ProgramCache& programs, const TexelSet& texels, const PassInput& input, const Frame& frame,
+                    int sample, double weight);
 
  private:
   gpu::VertexArray m_vertices;

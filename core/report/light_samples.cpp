@@ -144,6 +144,7 @@ lpt::RepresentationInput LightSamples::input(std::optional<std::size_t> without)
   in.fit.layer = train.hits.layer;
   in.fit.coverage = train.coverage;
   in.fit.visibility = visibility;
+  in.fit.sky = {sky[0], sky[1]};
   in.fit.visibilityDirections = visibilityDirections;
   in.fit.lights = without ? std::span<const glm::dvec3>(lightsWithout[*without]) : training;
   in.fit.channels = 2;
@@ -180,6 +181,7 @@ Result<std::shared_ptr<const LightSamples>> sampleLights(const SectionInput& inp
   SWARD_ASSIGN(samples->train, sampled(*scene, options, samples->training, quiet));
   SWARD_ASSIGN(trace::LayerVisibility seen, trace::sampleVisibility(*scene, samples->train.hits, options, quiet));
   samples->visibility = std::move(seen.visibility);
+  samples->sky = {std::move(seen.skyReflected), std::move(seen.skyTransmitted)};
   samples->sampleSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (samples->texels() == 0) {
     return Error::badInput("the patch has nothing to sample", "report sections of light",

@@ -7,6 +7,7 @@
 #include "scene/patch.h"
 #include "trace/layers.h"
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <mutex>
@@ -42,6 +43,7 @@ struct LightSamples {
 
   SampledLight train;  ///< of the training lights
   std::vector<float> visibility;
+  std::array<std::vector<float>, 2> sky;     ///< terms of train's texels, reflected and transmitted
   std::vector<trace::LayerLuminance> truth;  ///< train's texels under the held-out lights
   /// Held-out lights, evenly chosen from high to low, under which places between texels are compared.
   std::vector<std::size_t> betweenLights;

@@ -129,7 +129,10 @@ class FitSection {
         " Leave-one-out errors are those under each training light of a fit without it. Between texels: predictions "
         "half-way between four texels (their mean by coverage, as layers are drawn; \"filled\": the plain mean with "
         "what was filled into empty texels, as a texture filter reads) against samples of the patch moved by half a "
-        "texel. \"Seen\" weights by visibility, too, as fits do. Groups of lpt_clustered are contiguous and each "
+        "texel. lpt_depth tells the layers of a column apart by their depth, as the paper does; lpt8 and lpt16 (unless "
+        "the project says otherwise) by how bright each texel is expected to be: a regression on its sky terms, its "
+        "coverage and what stands above, which all texels of a layer share (70 numbers a layer). \"Seen\" weights by "
+        "visibility, too, as fits do. Groups of lpt_clustered are contiguous and each "
         "column's own, a byte a border. The table lpt_fit_lights holds the sums from which every error follows: RMSE "
         "is the root of squares over weights, bias errors over weights.";
   }

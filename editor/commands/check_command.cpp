@@ -2,6 +2,7 @@
 
 #include "bake/plants.h"
 #include "bake/soil.h"
+#include "render/frame_plan.h"
 #include "scene/lights.h"
 
 namespace sward::editor {
@@ -26,6 +27,7 @@ void checkAssets(const project::Project& project, std::vector<project::Problem>&
   if (const auto lights = scene::lightDirections(project.lights); !lights.ok()) {
     problems.push_back({true, lights.error().where, lights.error().what, lights.error().remedy});
   }
+  for (project::Problem& problem : render::terrainProblems(project)) problems.push_back(std::move(problem));
   if (project.patch.soil.texture.empty()) return;
   if (const auto soil = bake::soilColours(project, 8); !soil.ok()) add("patch.soil.texture", soil.error());
 }

@@ -2,7 +2,6 @@
 #include "commands.h"
 #include "methods.h"
 
-#include "bake/texel_baker.h"
 #include "gpu/context.h"
 #include "image/io.h"
 #include "project/limits.h"
@@ -101,6 +100,7 @@ struct RenderPlan {
   scene::View view;
   scene::Daylight daylight;
   render::Frame frame;
+  std::shared_ptr<const terrain::HeightField> terrain;  ///< nothing: level ground
   fs::path output;
   bool linear = false;
 };
@@ -120,31 +120,24 @@ Result<RenderPlan> planRender(const Program& program, const RenderRequest& reque
   SWARD_ASSIGN(const scene::View view, chooseView(project, request.view));
   SWARD_ASSIGN(const scene::Daylight daylight, render::daylightOf(project));
   SWARD_ASSIGN(const render::Frame frame, render::planFrame(project, view, daylight, request.exposureEv));
+  SWARD_ASSIGN(const terrain::Terrain terrain, render::terrainOf(project));
+  for (const std::string& warning : terrain.warnings) warn(program, "terrain: " + warning);
   std::string extension = fs::path(request.output).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return RenderPlan{std::move(project), view, daylight, frame, request.output, extension == ".exr"};
+  return RenderPlan{std::move(project), view, daylight, frame, terrain.field, request.output, extension == ".exr"};
 }
 
 struct RenderTimes {
   double start = 0.0, bake = 0.0, upload = 0.0, draw = 0.0, write = 0.0;
 };
 
-/// What is drawn: one of the two.
-struct Baked {
-  std::shared_ptr<const bake::GroundBake> ground;
-  std::shared_ptr<const bake::TexelBake> texels;
-};
-
-Result<image::Image> drawPicture(Program& program, const RenderPlan& plan, gpu::Context& context, Baked baked,
-                                 RenderTimes& times) {
+Result<image::Image> drawPicture(Program& program, const RenderPlan& plan, gpu::Context& context,
+                                 std::shared_ptr<const bake::GroundBake> ground, RenderTimes& times) {
   StopWatch watch;
   SWARD_ASSIGN(const auto renderer, render::Renderer::create(context));
-  if (baked.texels) {
-    SWARD_TRY(renderer->setTexels(std::move(baked.texels)));
-  } else {
-    SWARD_TRY(renderer->setGround(std::move(baked.ground)));
-  }
+  SWARD_TRY(renderer->setGround(std::move(ground)));
+  if (plan.terrain) SWARD_TRY(renderer->setTerrain(plan.terrain));
   times.upload = watch.lap();
   renderer->setDaylight(plan.daylight, plan.project.sky.hazeKm);
   if (program.interrupts.requested()) return Error::cancelled();
@@ -153,12 +146,6 @@ Result<image::Image> drawPicture(Program& program, const RenderPlan& plan, gpu::
   times.draw = watch.lap();
   if (program.interrupts.requested()) return Error::cancelled();
   return picture;
-}
-
-std::string texelText(const bake::TexelReport& made) {
-  return "made texels of " + std::to_string(made.voxels) + " voxels from " + std::to_string(made.points) +
-         " points: grown in " + secondsText(made.restSeconds) + ", aged in " + secondsText(made.ageSeconds) +
-         ", levels and skylight in " + secondsText(made.levelSeconds);
 }
 
 Json resultJson(const RenderPlan& plan, const gpu::DeviceInfo& device, const RenderTimes& times,
@@ -187,23 +174,17 @@ Result<int> runRender(Program& program, const RenderRequest& request) {
   SWARD_ASSIGN(const auto choice, chooseBake(program, plan.project, {plan.view}, *context));
   times.start = watch.lap();
   bake::BakeReport baked;
-  Baked scene;
-  if (plan.project.render.method == render::GroundMethod::Texels) {
-    bake::TexelBaker baker;
-    ProgressBar bar(program);
-    bake::TexelReport made;
-    SWARD_ASSIGN(scene.texels, baker.texels(plan.project, 0, bar.job(), &made));
-    say(program, texelText(made));
-  } else {
+  std::shared_ptr<const bake::GroundBake> ground;
+  {
     // The baker goes before the picture is drawn: its memory cache is of no more use.
     bake::Baker baker = openBaker(program);
     ProgressBar bar(program);
-    SWARD_ASSIGN(scene.ground, baker.ground(plan.project, bar.job(), &baked));
+    SWARD_ASSIGN(ground, baker.ground(plan.project, bar.job(), &baked));
   }
   times.bake = watch.lap();
   for (const std::string& warning : baked.warnings) warn(program, warning);
   say(program, bakeText(baked));
-  SWARD_ASSIGN(const image::Image picture, drawPicture(program, plan, *context, std::move(scene), times));
+  SWARD_ASSIGN(const image::Image picture, drawPicture(program, plan, *context, std::move(ground), times));
   watch.lap();
   {
     const auto writing = program.interrupts.writing();

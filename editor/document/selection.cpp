@@ -62,7 +62,7 @@ std::optional<Selection> selectionAt(const std::string& where, const project::Pr
   }
   static constexpr std::pair<std::string_view, Kind> kSections[] = {
       {"patch", Kind::Ground}, {"lights", Kind::Lights}, {"sampling", Kind::Sampling},
-      {"fit", Kind::Fit},      {"tiles", Kind::Tiles},   {"sun", Kind::SunSky},
+      {"fit", Kind::Fit},      {"tiles", Kind::Tiles},   {"terrain", Kind::Terrain},   {"sun", Kind::SunSky},
       {"sky", Kind::SunSky},   {"render", Kind::Render}, {"output", Kind::Render}};
   const std::string_view section = std::string_view(where).substr(0, where.find_first_of(".["));
   for (const auto& [name, kind] : kSections) {

@@ -66,6 +66,8 @@ struct PictureJob::Impl {
     SWARD_ASSIGN(const auto context, gpu::Context::create(request.device));
     SWARD_ASSIGN(const auto renderer, render::Renderer::create(*context));
     SWARD_TRY(renderer->setGround(ground));
+    SWARD_ASSIGN(const terrain::Terrain terrain, render::terrainOf(*request.project));
+    SWARD_TRY(renderer->setTerrain(terrain.field));
     renderer->setDaylight(daylight, request.project->sky.hazeKm);
     render::Drawing drawing;
     SWARD_TRY(renderer->begin(drawing, frame));

@@ -125,6 +125,15 @@ Result<void> ViewPainter::light(const project::Project& project) {
   return {};
 }
 
+Result<void> ViewPainter::shape(const project::Project& project) {
+  if (m_terrain == project.terrain && m_folder == project.folder) return {};
+  SWARD_ASSIGN(terrain::Terrain terrain, render::terrainOf(project));
+  m_field = std::move(terrain.field);
+  m_terrain = project.terrain;
+  m_folder = project.folder;
+  return {};
+}
+
 Result<void> ViewPainter::prepare(Bench& bench, const std::shared_ptr<const bake::GroundBake>& ground,
                                   const std::shared_ptr<const bake::Inspection>& inspection) {
   if (!bench.renderer) {
@@ -140,6 +149,7 @@ Result<void> ViewPainter::prepare(Bench& bench, const std::shared_ptr<const bake
     SWARD_TRY(bench.renderer->setInspection(*inspection));
     bench.inspection = inspection;
   }
+  SWARD_TRY(bench.renderer->setTerrain(m_field));
   if (!std::exchange(bench.lit, true)) bench.renderer->setDaylight(*m_daylight, m_sky.hazeKm);
   return {};
 }
@@ -179,6 +189,7 @@ Result<void> ViewPainter::begin(const ViewRequest& request) {
   if (m_request && sameOwnPicture(*m_request, request)) return {};
   m_request.reset();
   SWARD_TRY(light(*request.project));
+  SWARD_TRY(shape(*request.project));
   SWARD_ASSIGN(const render::Frame frame, frameOf(request, *m_daylight));
   SWARD_TRY(beginSides(request, frame));
   m_request = request;

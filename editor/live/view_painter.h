@@ -50,6 +50,7 @@ class ViewPainter {
 
   Result<void> open();
   Result<void> light(const project::Project& project);
+  Result<void> shape(const project::Project& project);
   Result<void> prepare(Bench& bench, const std::shared_ptr<const bake::GroundBake>& ground,
                        const std::shared_ptr<const bake::Inspection>& inspection);
   Result<void> beginSides(const ViewRequest& request, const render::Frame& frame);
@@ -65,6 +66,9 @@ class ViewPainter {
   std::optional<scene::Daylight> m_daylight;
   scene::SunOptions m_sun;  ///< what m_daylight was made of
   scene::SkyOptions m_sky;
+  std::shared_ptr<const terrain::HeightField> m_field;  ///< nothing: level ground
+  terrain::TerrainOptions m_terrain;                    ///< what m_field was made of
+  std::filesystem::path m_folder;                       ///< and where its path starts
 };
 
 /// Column at which a split picture changes sides, 0 to width.

@@ -29,6 +29,8 @@ std::string titleOf(const PanelContext& context) {
       return "Light directions";
     case Selection::Kind::Tiles:
       return "Tiles";
+    case Selection::Kind::Terrain:
+      return "Terrain";
     case Selection::Kind::SunSky:
       return "Sun and sky";
     case Selection::Kind::View:
@@ -120,6 +122,10 @@ void InspectorPanel::draw(PanelContext& context) {
     case Selection::Kind::Tiles:
       fields(
           context, "tiles", [](project::Project & p) -> auto& { return p.tiles; });
+      break;
+    case Selection::Kind::Terrain:
+      fields(
+          context, "terrain", [](project::Project & p) -> auto& { return p.terrain; });
       break;
     case Selection::Kind::SunSky:
       sunAndSky(context);

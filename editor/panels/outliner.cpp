@@ -50,6 +50,7 @@ void title(const char* text) {
 
 void OutlinerPanel::draw(PanelContext& context) {
   plants(context);
+  row(context, icon::kTerrain, "Terrain", {Selection::Kind::Terrain, 0, {}}, "");
   title("LIGHT");
   row(context, icon::kSun, "Sun and sky", {Selection::Kind::SunSky, 0, {}}, "");
   row(context, icon::kLight, "Light directions", {Selection::Kind::Lights, 0, {}}, "");
@@ -86,7 +87,7 @@ bool OutlinerPanel::row(PanelContext& context, const char* icon, const std::stri
 
 void OutlinerPanel::plants(PanelContext& context) {
   title("PATCH");
-  row(context, icon::kTerrain, "Ground", {Selection::Kind::Ground, 0, {}}, "");
+  row(context, icon::kTexture, "Ground", {Selection::Kind::Ground, 0, {}}, "");
   double shareSum = 0.0;
   for (const project::Plant& plant : context.project->patch.plants) shareSum += plant.share;
   for (std::size_t i = 0; i < context.project->patch.plants.size(); ++i) plantRow(context, i, shareSum);

@@ -8,11 +8,18 @@
 //
 // SWARD_FAMILIES: 1 slices, 2 blades normal to x, 4 normal to y; SWARD_SKY: some rays end in the sky. Blocks of the
 // screen are drawn by the variant that has what they need.
+// SWARD_TERRAIN: the shell lies over a terrain (ground/terrain.glsl).
+#ifndef SWARD_TERRAIN
+#define SWARD_TERRAIN 0
+#endif
 #include "ground/constants.glsl"
 #include "ground/view.glsl"
 #include "ground/sky.glsl"
 #include "ground/texels.glsl"
 #include "ground/surface.glsl"
+#if SWARD_TERRAIN
+#include "ground/terrain.glsl"
+#endif
 
 #define SWARD_SLICES (SWARD_FAMILIES & 1)
 #define SWARD_BLADES (SWARD_FAMILIES & 6)
@@ -83,6 +90,79 @@ void marchBlades(Walk walk, Level level, bool axisX, float tEnd, float random) {
 }
 #endif
 
+#if SWARD_TERRAIN
+// One way through the shell: radiance over exposure, premultiplied by what was in front of it.
+vec3 marchTerrain(vec3 d, float enterM, bool last, vec3 random, float levelJitter, float lot, out bool soilSeen) {
+  TerrainWalk w = startTerrain(d, enterM, last);
+  Walk walk = w.walk;
+  float before = g_transmittance;
+  g_sum = vec3(0.0);
+  ivec2 family = chooseFamily(normalize(vec3(d.xy, walk.slopeZ)), lot);
+  if (family.x == 0) {
+    // Steep enough to go straight.
+    walk.tEnd = walk.slopeZ < 0.0 ? walk.heightM * walk.path : (v_heightM - walk.heightM) * walk.path;
+    w.soilSeen = walk.slopeZ < 0.0;
+    marchSlices(walk, sliceLevel(walk.footprint, random, levelJitter), walk.tEnd, fourthRandom(random));
+  }
+#if SWARD_BLADES
+  if (family.x == 1) {
+    g_rowBend = w.bend;
+    marchBlades(walk, bladeLevel(walk.footprint, random, levelJitter), family.y == 0, walk.tEnd, random.y);
+  }
+#endif
+  soilSeen = w.soilSeen;
+  vec3 radiance = g_sum * kColourUnit;
+  if (soilSeen && g_transmittance > kTransmittanceEnd) {
+    Level level = soilLevelOf(walk, random, levelJitter);
+    vec2 foot = slicePlace(walk, level) + walk.slope * max(walk.tEnd, 0.0);
+    radiance += g_transmittance * kColourUnit * storedColour(fetchSlice(level, layerStart(level, v_sliceLayers - 1), foot));
+    g_transmittance = 0.0;
+  }
+  // What little an opaque ray has left is given to what it saw.
+  if (g_transmittance <= kTransmittanceEnd) {
+    radiance *= before / max(before - g_transmittance, 1e-6);
+    g_transmittance = 0.0;
+  }
+#if SWARD_MODE
+  return radiance * v_relightScale;
+#else
+  radiance *= macroTint(walk.place, walk.tEnter, random) * terrainLight(w) * v_relightScale;
+  float clear = exp(-v_hazePerM * walk.tEnter);
+  vec3 horizon = texelFetch(t_horizon, int((diamondAngle(d.xy) + 0.25) * kHorizonTexels + random.x)).rgb;
+  return mix(horizon * (before - g_transmittance), radiance, clear);
+#endif
+}
+
+void main() {
+  vec3 d = viewRay(gl_FragCoord.xy);
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  float first = texelFetch(t_first, pixel, 0).r;
+  bool inside = u_eyeOverGroundM < v_heightM;
+  vec3 seen = vec3(0.0);
+  if (inside || first > 0.0) {
+    vec3 random = pixelRandom(pixel);
+    float levelJitter = (1.0 + random.z) * kLevelBias;
+    float lot = pixelRandom(pixel / kLotPixels).x;
+    float next = inside ? first : texelFetch(t_second, pixel, 0).r;
+    // Without a next entry that is far enough behind to be told apart, the first is the last.
+    bool last = next <= 0.0 && d.z < -kMeshHorizon;
+    float enter = inside ? 0.0 : first;
+    for (int i = 0; i < 2; ++i) {
+      bool soilSeen;
+      seen += marchTerrain(d, enter, last, random, levelJitter, lot, soilSeen);
+      if (soilSeen || g_transmittance <= 0.0 || next <= 0.0) break;
+      enter = next;
+      last = true;
+    }
+  }
+#if SWARD_MODE
+  o_radiance = vec4(seen * v_exposure, (1.0 - g_transmittance) * u_sampleWeight);
+#else
+  if (g_transmittance > 0.0) seen += g_transmittance * (skyRadiance(d) + sunDisc(d));
+  o_radiance = vec4(seen * v_exposure, 1.0);
+#endif
+}
+#else
 void main() {
   vec3 d = viewRay(gl_FragCoord.xy);
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -116,3 +196,4 @@ void main() {
 #endif
   o_radiance = finishGround(walk, d, radiance, left, soilLevel, random);
 }
+#endif

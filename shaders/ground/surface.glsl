@@ -1,4 +1,7 @@
 // What march and blending share: the ray in the shell's coordinates, weights of the families, macro variation, haze.
+#ifndef SWARD_TERRAIN
+#define SWARD_TERRAIN 0
+#endif
 uniform samplerBuffer t_horizon;  // sky radiance at the horizon by the azimuth's diamond angle
 
 // A ray's way through the shell. Distances count from where it starts to look, places from the stored map's corner.
@@ -89,6 +92,10 @@ Planes slicePlanes(Walk walk, float random) {
   return planes;
 }
 
+#if SWARD_TERRAIN
+float g_rowBend = 0.0;  // of the height over the ground, 1 / metres, while blades are marched
+#endif
+
 // A walk through blades: its planes, where along them it starts and its slopes, the first texel of their level.
 struct BladeWalk {
   Planes planes;
@@ -140,7 +147,11 @@ BladeWalk startBlades(Walk walk, Level level, bool axisX, float random) {
 // What a ray meets at `t` in the plane through `across`.
 uint fetchAlong(BladeWalk blades, Level level, bool axisX, float across, float t) {
   float along = blades.place + blades.slope * t + gridBend(blades.bend + blades.bendSlope * t);
-  return fetchBlade(level, blades.start, axisX, across, along, blades.row + blades.rowSlope * t);
+  float row = blades.row + blades.rowSlope * t;
+#if SWARD_TERRAIN
+  row = clamp(row + 0.5 * g_rowBend * (level.rows / v_heightM) * t * t, -0.5, level.rows - 0.5);
+#endif
+  return fetchBlade(level, blades.start, axisX, across, along, row);
 }
 
 Level soilLevelOf(Walk walk, vec3 random, float levelJitter) {

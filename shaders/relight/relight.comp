@@ -33,14 +33,23 @@ void main() {
   for (int i = 0; i < kColumns; ++i)
     responses[i] = columnResponse(image * area + stackColumn + i / SWARD_BLOCK * u_stackSize.x + i % SWARD_BLOCK);
 #endif
+#if SWARD_COMMON
+  float open[kColumns];
+  for (int i = 0; i < kColumns; ++i) open[i] = 1.0;
+#endif
   for (int layer = 0; layer < u_layers; ++layer) {
     int texelBase = (image * u_layers + layer) * area + stackColumn;
     int plane = image * u_outLayers + u_outFirst + layer;
     int outTexel = u_outBase + plane * outArea + corner.y * u_outSize.x + corner.x;
     vec4 sum = vec4(0.0);
+#if SWARD_COMMON
+    CommonLayer together = commonLayer(layer);
+#endif
     for (int i = 0; i < kColumns; ++i) {
       int texel = texelBase + i / SWARD_BLOCK * u_stackSize.x + i % SWARD_BLOCK;
-#if SWARD_LPT
+#if SWARD_COMMON
+      vec2 f = texelResponse(responses[i], together, texel, open[i]);
+#elif SWARD_LPT
       vec2 f = texelResponse(responses[i], float(layer) / float(u_layers));
 #else
       vec2 f = texelResponse(texel);

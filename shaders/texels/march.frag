@@ -1,30 +1,34 @@
 // A meadow of texels (science.md section 4): from the shell's top front to back through the voxels of a block that
 // repeats over the ground, past empty bricks in one step, until the ray is opaque; then the soil. The light came on the
 // processor (core/wither/texel_light.h); leaves show the side that faces the eye, tangents a highlight.
+#ifndef SWARD_TERRAIN
+#define SWARD_TERRAIN 0
+#endif
+// Of the layers' shaders the ray, the grid's bend, the macro variation and the haze serve here too: a texel is a tile.
+#define SWARD_FAMILIES 1
 #include "ground/constants.glsl"
 #include "ground/view.glsl"
 #include "ground/sky.glsl"
+#include "ground/texels.glsl"
+#include "ground/surface.glsl"
+#if SWARD_TERRAIN
+#include "ground/terrain.glsl"
+#else
+uniform vec3 u_sunIrradiance;
+#endif
 
 uniform isamplerBuffer t_bricks;   // of all levels: where a brick's voxels start in t_voxels; -1: empty
 uniform usamplerBuffer t_voxels;   // 512 a brick: index into t_leaves, from 1; 0: empty
 uniform usamplerBuffer t_leaves;   // four words a voxel, render/texel_set.h
 uniform usamplerBuffer t_soil;     // lit soil of the finest level's columns, shared exponents
-uniform samplerBuffer t_horizon;
 
 uniform int u_levels;
 uniform uint u_levelStart[8];       // in t_bricks
 uniform int u_columns;             // of level 0
 uniform int u_layers;
-uniform float u_sideM;
-uniform float u_shellM;
 uniform float u_densityRange;      // 1/m, of a stored density of 1
 uniform float u_radianceRange;
-uniform float u_sharpness;         // exponent of the highlight
-uniform vec3 u_sunIrradiance;
-uniform vec2 u_eyePlace;           // eye in the block, blocks
-uniform float u_bendM;             // as the ground's grid is bent
-uniform float u_bendTurnsPerM;
-uniform vec2 u_bendPhase;
+uniform float u_highlight;         // its radiance over the sun's irradiance at full gloss
 
 out vec4 o_radiance;
 
@@ -32,13 +36,8 @@ const int kBrick = 8;
 const int kMaxVoxels = 900;         // that a ray may look at
 const float kLevelBiasTexels = 0.8;
 
-vec3 g_sum = vec3(0.0);
+vec3 g_sum = vec3(0.0);  // over the range of radiances
 float g_left = 1.0;
-
-float bendWave(float turns) {
-  float triangle = abs(fract(turns) - 0.5) * 4.0 - 1.0;
-  return triangle * (1.5 - 0.5 * triangle * triangle);
-}
 
 // Unit vector of two bytes (octahedral); zero for 0.
 vec3 direction16(uint bits) {
@@ -66,7 +65,7 @@ void shade(uint index, vec3 d, float lengthM) {
   vec2 eigen = (vec2(1.0 - share) + vec2(3.0 * share, 0.0)) / 3.0;
   vec2 area = eigen * (5.0 + 3.0 * eigen) / 8.0;
   float extinction = root * root * u_densityRange * sqrt(mix(area.y, area.x, facing * facing));
-  float opacity = 1.0 - exp(-extinction * lengthM);
+  float opacity = 1.0 - transmitted(extinction * lengthM);
   vec3 colour = colour30(facing <= 0.0 ? leaf.y : leaf.z);
   // Kajiya and Kay: the cone about the tangent on which the sun's light is reflected.
   vec2 along = vec2(dot(tangent, -d), dot(tangent, u_sunDirection));
@@ -74,7 +73,12 @@ void shade(uint index, vec3 d, float lengthM) {
   float cone = across.x * across.y - along.x * along.y;
   float gloss = float((leaf.w >> 16) & 0xffu) / 255.0;
   if (gloss > 0.0 && tangent != vec3(0.0)) {
-    colour += u_sunIrradiance * (gloss * pow(max(cone, 0.0), u_sharpness) / u_radianceRange);
+    float c = max(cone, 0.0);
+    c *= c * c;  // to the power 24
+    c *= c;
+    c *= c;
+    c *= c;
+    colour += u_sunIrradiance * (gloss * u_highlight * c / u_radianceRange);
   }
   g_sum += g_left * opacity * colour;
   g_left *= 1.0 - opacity;
@@ -113,56 +117,82 @@ void marchVoxels(vec3 p, vec3 d, vec3 dv, float tEnd, int level, int columns, in
   }
 }
 
-vec3 throughHaze(vec3 radiance, vec3 d, float distanceM, float random) {
-  float clear = exp(-v_hazePerM * distanceM);
-  vec3 horizon = texelFetch(t_horizon, int((diamondAngle(d.xy) + 0.25) * kHorizonTexels + random)).rgb;
-  return mix(horizon, radiance, clear);
+// What a walk through the shell gathers, and the soil where it ends on it: radiance before the macro variation.
+vec3 marchShell(Walk walk, vec3 d, float tEnd, bool soilSeen, vec3 random) {
+  float before = g_left;
+  g_sum = vec3(0.0);
+  float voxels = walk.footprint * float(u_columns) * v_tilesPerM;
+  int level = clamp(mipLevel(voxels, (1.0 + random.z) * kLevelBiasTexels), 0, u_levels - 1);
+  int columns = u_columns >> level;
+  int layers = u_layers >> level;
+  vec2 place = fract(walk.place + vec2(gridBend(walk.bend.x), gridBend(walk.bend.y)));
+  vec3 perM = vec3(vec2(float(columns)) * v_tilesPerM, float(layers) / v_heightM);
+  // A voxel's box, shifted anew for every sample: their mean has no blocks.
+  vec3 p = vec3(place * float(columns), walk.heightM * perM.z) + random - 0.5;
+  p.z = clamp(p.z, 0.0, float(layers));
+  vec3 along = vec3(d.xy, walk.slopeZ);
+  if (tEnd > 0.0) marchVoxels(p, d, along * perM, tEnd, level, columns, layers);
+  vec3 radiance = g_sum;
+  if (soilSeen && g_left > kTransmittanceEnd) {
+    vec2 foot = fract(place + d.xy * (max(tEnd, 0.0) * v_tilesPerM));
+    ivec2 column = clamp(ivec2(foot * float(u_columns)), ivec2(0), ivec2(u_columns - 1));
+    radiance += g_left * colour30(texelFetch(t_soil, column.y * u_columns + column.x).r);
+    g_left = 0.0;
+  }
+  // What little an opaque ray has left is given to what it saw.
+  if (g_left <= kTransmittanceEnd) {
+    radiance *= before / max(before - g_left, 1e-6);
+    g_left = 0.0;
+  }
+  return radiance * u_radianceRange * macroTint(walk.place, walk.tEnter, random);
+}
+
+#if SWARD_TERRAIN
+vec3 marchTerrain(vec3 d, float enterM, bool last, vec3 random, out bool soilSeen) {
+  TerrainWalk w = startTerrain(d, enterM, last);
+  soilSeen = w.soilSeen;
+  float before = g_left;
+  vec3 radiance = marchShell(w.walk, d, w.walk.tEnd, soilSeen, random) * terrainLight(w);
+  float clear = exp(-v_hazePerM * w.walk.tEnter);
+  vec3 horizon = texelFetch(t_horizon, int((diamondAngle(d.xy) + 0.25) * kHorizonTexels + random.x)).rgb;
+  return mix(horizon * (before - g_left), radiance, clear);
 }
 
 void main() {
   vec3 d = viewRay(gl_FragCoord.xy);
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec3 random = pixelRandom(pixel);
+  float first = texelFetch(t_first, pixel, 0).r;
+  bool inside = u_eyeOverGroundM < v_heightM;
+  vec3 seen = vec3(0.0);
+  if (inside || first > 0.0) {
+    float next = inside ? first : texelFetch(t_second, pixel, 0).r;
+    bool last = next <= 0.0 && d.z < -kMeshHorizon;
+    float enter = inside ? 0.0 : first;
+    for (int i = 0; i < 2; ++i) {
+      bool soilSeen;
+      seen += marchTerrain(d, enter, last, random, soilSeen);
+      if (soilSeen || g_left <= 0.0 || next <= 0.0) break;
+      enter = next;
+      last = true;
+    }
+  }
+  if (g_left > 0.0) seen += g_left * (skyRadiance(d) + sunDisc(d));
+  o_radiance = vec4(seen * v_exposure, 1.0);
+}
+#else
+void main() {
+  vec3 d = viewRay(gl_FragCoord.xy);
   vec3 random = pixelRandom(ivec2(gl_FragCoord.xy));
-  bool above = v_eyeM > u_shellM;
-  if (d.z >= 0.0 && above) {
+  Walk walk = startWalk(d);
+  if (walk.tEnd < 0.0) {
     o_radiance = vec4((skyRadiance(d) + sunDisc(d)) * v_exposure, 1.0);
     return;
   }
-  vec3 steep = d;
-  if (abs(steep.z) < 1e-4) steep.z = steep.z < 0.0 ? -1e-4 : 1e-4;
-  bool down = steep.z < 0.0;
-  float tEnter = above ? (u_shellM - v_eyeM) / steep.z : 0.0;
-  float tStart = max(tEnter, kNearestM);
-  float heightM = v_eyeM + steep.z * tStart;
-  // Within the shell rays sink at least so steeply as the ground's do.
-  steep.z = down ? min(steep.z, -kLeastSlope) : max(steep.z, kLeastSlope);
-  float tEnd = (down ? heightM : u_shellM - heightM) / abs(steep.z);
-  float footprint = (tStart + min(0.3 * tEnd, 1.0)) * v_pixelAngle;
-  float voxels = footprint * float(u_columns) / u_sideM * (1.0 + random.z) * kLevelBiasTexels;
-  int level = clamp((floatBitsToInt(max(voxels, 1e-6)) >> 23) - 127, 0, u_levels - 1);
-  int columns = u_columns >> level;
-  int layers = u_layers >> level;
-
-  vec2 place = u_eyePlace + steep.xy * (tStart / u_sideM);
-  vec2 bend = u_bendM / u_sideM *
-              vec2(bendWave(u_bendPhase.x + steep.y * tStart * u_bendTurnsPerM),
-                   bendWave(u_bendPhase.y + steep.x * tStart * u_bendTurnsPerM));
-  place = fract(place + bend);
-  vec3 perM = vec3(vec2(float(columns)) / u_sideM, float(layers) / u_shellM);
-  // A voxel's box, shifted anew for every sample: their mean has no blocks.
-  vec3 p = vec3(place * float(columns), heightM * perM.z) + vec3(random.xy - 0.5, (random.z - 0.5));
-  p.z = clamp(p.z, 0.0, float(layers));
-  if (tEnd > 0.0) marchVoxels(p, steep, steep * perM, tEnd, level, columns, layers);
-
-  float left = g_left > kTransmittanceEnd ? g_left : 0.0;
-  vec3 radiance = g_sum / (1.0 - (g_left - left)) * u_radianceRange;
-  vec3 seen;
-  if (down) {
-    vec2 foot = fract(place + steep.xy * (tEnd / u_sideM));
-    ivec2 column = clamp(ivec2(foot * float(u_columns)), ivec2(0), ivec2(u_columns - 1));
-    vec3 soil = colour30(texelFetch(t_soil, column.y * u_columns + column.x).r) * u_radianceRange;
-    seen = throughHaze(radiance + left * soil, d, tEnter, random.x);
-  } else {
-    seen = radiance + left * (skyRadiance(d) + sunDisc(d));
-  }
+  bool soilSeen = walk.slopeZ < 0.0;
+  vec3 radiance = marchShell(walk, d, walk.tEnd, soilSeen, random);
+  vec3 seen = soilSeen ? throughHaze(radiance, d, walk.tEnter, random.x)
+                       : radiance + g_left * (skyRadiance(d) + sunDisc(d));
   o_radiance = vec4(seen * v_exposure, 1.0);
 }
+#endif

@@ -86,7 +86,7 @@ TEST_F(BakeGraph, AFirstBakeMakesEverything) {
   EXPECT_EQ(kinds.at("hits"), 6);
   EXPECT_EQ(kinds.at("luminance"), 36);
   EXPECT_EQ(kinds.at("visibility"), 6);
-  EXPECT_EQ(kinds.at("fit"), 6);
+  EXPECT_EQ(kinds.at("fit"), 7) << "one a layer set, and one for the seams";
   EXPECT_EQ(kinds.at("stack"), 6);
   EXPECT_EQ(kinds.at("tiles"), 1);
   EXPECT_EQ(kinds.at("ground"), 1);

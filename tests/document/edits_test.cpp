@@ -232,6 +232,7 @@ TEST(SelectionTest, FindsWhatShowsAProblem) {
   EXPECT_EQ(selectionAt("patch.plants[9].name", project)->kind, Selection::Kind::Ground);
   EXPECT_EQ(selectionAt("lights.directions[3].azimuthDeg", project)->kind, Selection::Kind::Lights);
   EXPECT_EQ(selectionAt("sun.moment.day", project)->kind, Selection::Kind::SunSky);
+  EXPECT_EQ(selectionAt("terrain.hills.seed", project)->kind, Selection::Kind::Terrain);
   EXPECT_EQ(selectionAt("output", project)->kind, Selection::Kind::Render);
   EXPECT_FALSE(selectionAt("name", project));
   EXPECT_FALSE(selectionAt("", project));

@@ -77,11 +77,12 @@ TEST(Layout, IncludesFollowTheArrows) {
 
 /// The same for editor/: what each folder of it may include of the others and of core/.
 TEST(Layout, EditorIncludesFollowTheArrows) {
-  const std::set<std::string> core{"base",    "image", "mesh", "scene",  "trace",  "lpt",   "tiles",
-                                   "project", "bake",  "gpu",  "render", "export", "report"};
+  const std::set<std::string> core{"base",  "image",   "mesh", "scene", "terrain", "trace",  "lpt",
+                                   "tiles", "project", "bake", "gpu",   "render",  "export", "report"};
   const std::map<std::string, std::set<std::string>> allowed{
       {"document", {"base", "project"}},
-      {"live", {"base", "image", "mesh", "scene", "trace", "lpt", "tiles", "project", "bake", "gpu", "render"}},
+      {"live",
+       {"base", "image", "mesh", "scene", "terrain", "trace", "lpt", "tiles", "project", "bake", "gpu", "render"}},
       {"widgets", {"base", "image", "scene", "project"}},
       {"panels", {"document", "live", "widgets"}},
       {"app", {"document", "live", "widgets", "panels"}},

@@ -1,4 +1,4 @@
-#include "lpt/pull_push.h"
+#include "image/pull_push.h"
 #include "samples.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ TEST(PullPush, AnyShapeIsFilledWithinTheRangeOfWhatIsKnown) {
         values[p * 2 + 1] = 5.0f;
       }
       const std::vector<float> before = values;
-      detail::pullPush(values, weight, width, height, 2, periodic);
+      image::pullPush(values, weight, width, height, 2, periodic);
       for (std::size_t p = 0; p < pixels; ++p) {
         ASSERT_GE(values[p * 2], 0.99999f);
         ASSERT_LE(values[p * 2], 2.00001f);
@@ -37,7 +37,7 @@ TEST(PullPush, AnyShapeIsFilledWithinTheRangeOfWhatIsKnown) {
 TEST(PullPush, NothingKnownChangesNothing) {
   std::vector<float> values(12, 7.0f);
   const std::vector<float> weight(12, 0.0f);
-  detail::pullPush(values, weight, 4, 3, 1, true);
+  image::pullPush(values, weight, 4, 3, 1, true);
   EXPECT_EQ(values, std::vector<float>(12, 7.0f));
 }
 
@@ -47,13 +47,13 @@ TEST(PullPush, HolesTakeWhatIsNearAndWhatWeighsMore) {
   weight[0] = 1.0f;
   values[15] = 3.0f;
   weight[15] = 1.0f;
-  detail::pullPush(values, weight, 16, 1, 1, false);
+  image::pullPush(values, weight, 16, 1, 1, false);
   EXPECT_LT(values[1], values[14]);
   EXPECT_TRUE(std::is_sorted(values.begin(), values.end()));
   std::vector<float> heavy{1.0f, 0.0f, 0.0f, 3.0f};
-  detail::pullPush(heavy, std::vector<float>{9.0f, 0.0f, 0.0f, 1.0f}, 4, 1, 1, false);
+  image::pullPush(heavy, std::vector<float>{9.0f, 0.0f, 0.0f, 1.0f}, 4, 1, 1, false);
   std::vector<float> even{1.0f, 0.0f, 0.0f, 3.0f};
-  detail::pullPush(even, std::vector<float>{1.0f, 0.0f, 0.0f, 1.0f}, 4, 1, 1, false);
+  image::pullPush(even, std::vector<float>{1.0f, 0.0f, 0.0f, 1.0f}, 4, 1, 1, false);
   EXPECT_LE(heavy[1], even[1]);
 }
 

@@ -4,6 +4,7 @@
 #include "lpt/fit.h"
 #include "lpt/polynomial.h"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -32,6 +33,7 @@ struct Scene {
   std::vector<std::uint32_t> columnStart{0};
   std::vector<std::uint8_t> layer;
   std::vector<float> coverage, visibility;
+  std::array<std::vector<float>, 2> sky;    ///< empty: unknown
   std::vector<std::vector<float>> samples;  ///< [channel * lights + k]
 
   FitInput input() const {
@@ -42,6 +44,7 @@ struct Scene {
     in.layer = layer;
     in.coverage = coverage;
     in.visibility = visibility;
+    in.sky = {sky[0], sky[1]};
     in.lights = lights;
     in.channels = channels;
     for (const auto& one : samples) in.samples.emplace_back(one);

@@ -40,9 +40,10 @@ inline Json changed(const Json& value) {
     return std::nullopt;
   };
   for (const auto& word :
-       {swapTo(PlantKind{}), swapTo(scene::LightPattern{}), swapTo(lpt::Basis{}), swapTo(tiles::SeamMethod{}),
-        swapTo(tiles::SeamDomain{}), swapTo(tiles::MapMethod{}), swapTo(render::GroundMethod{}),
-        swapTo(render::ViewTransform{}), swapTo(report::ErrorBound{}), swapTo(wither::Autumn{}), swapTo(leaf::LeafOptions::Model{})}) {
+       {swapTo(PlantKind{}), swapTo(scene::LightPattern{}), swapTo(lpt::Basis{}), swapTo(lpt::LayerCoordinate{}),
+        swapTo(tiles::SeamMethod{}), swapTo(tiles::SeamDomain{}), swapTo(tiles::MapMethod{}),
+        swapTo(render::GroundMethod{}), swapTo(render::ViewTransform{}), swapTo(report::ErrorBound{}),
+        swapTo(terrain::Source{}), swapTo(wither::Autumn{}), swapTo(leaf::LeafOptions::Model{})}) {
     if (word) return *word;
   }
   return Json(text + "x");

@@ -58,6 +58,24 @@ TEST_P(RelitTexels, EqualTheCpusAtTheFinestLevel) {
   }
 }
 
+TEST(Relight, OnACommonResponseEqualsTheCpus) {
+  for (const double evenCoverage : {0.0, 0.3}) {
+    for (const int bits : {8, 16}) {
+      auto options = smallOptions();
+      options.common = true;
+      options.bits = bits;
+      options.evenCoverage = evenCoverage;
+      const auto ground = makeGround(options);
+      ASSERT_FALSE(ground->slices.common.empty());
+      auto stage = makeStage();
+      ASSERT_TRUE(stage.renderer->setGround(ground).ok());
+      const auto daylight = testing::daylightAt(250.0, 25.0);
+      stage.renderer->setDaylight(daylight);
+      expectSameAsOnTheCpu(*stage.renderer, *ground, ground->slices, 0, testing::illuminationOf(daylight));
+    }
+  }
+}
+
 TEST(Relight, FollowsTheSun) {
   const auto ground = makeGround(smallOptions());
   auto stage = makeStage();

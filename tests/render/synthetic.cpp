@@ -9,6 +9,23 @@
 namespace sward::testing {
 namespace {
 
+/// A little of every feature and function.
+lpt::CommonResponse commonResponse(int layers) {
+  lpt::CommonResponse common;
+  common.channels = 2;
+  for (int layer = 0; layer < layers; ++layer) {
+    for (int channel = 0; channel < 2; ++channel) {
+      for (int function = 0; function < lpt::CommonResponse::kFunctions; ++function) {
+        const bool coordinate = function == lpt::CommonResponse::kFunctions - 1;
+        const float size = coordinate ? 0.6f : 0.02f;
+        for (const float feature : {0.4f, 1.0f, -0.7f, 0.3f, 0.5f})
+          common.values.push_back(size * (feature - 0.02f * static_cast<float>(layer + function % 3)));
+      }
+    }
+  }
+  return common;
+}
+
 /// Layers of one set over the whole patch, before they are cut to tiles and quantised.
 struct Layers {
   lpt::LayerStackInput input;
@@ -28,6 +45,7 @@ struct Layers {
     input.transmittance.assign(texels, glm::vec3(0.05f));
     input.sky.assign(texels, glm::vec2(0.3f, 0.1f));
     nearest.assign(texels, 1e9f);
+    if (options.common && options.basis == lpt::Basis::Lpt) input.common = commonResponse(layers);
   }
 
   std::size_t texel(int layer, int x, int y) const {

@@ -22,6 +22,7 @@ struct SyntheticOptions {
   int plants = 1400;
   lpt::Basis basis = lpt::Basis::Lpt;
   int bits = 8;
+  bool common = false;  ///< of an LPT: coefficients are what columns differ from a common response
   /// Above 0: an even medium of this coverage a slice layer, coverage of blade texels to match, instead of grass.
   double evenCoverage = 0.0;
   double soilReflectance = -1.0;  ///< not negative: one grey, instead of grainy earth

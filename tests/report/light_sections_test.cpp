@@ -140,6 +140,9 @@ TEST_F(LightSections, ThereIsARowForEveryMethodThatCanBeFitted) {
   }
   // What one number a texel cannot follow, six can.
   EXPECT_LT(row(*s_fit, "ptm").error.at("rmse"), row(*s_fit, "constant").error.at("rmse"));
+  // And what is known of a texel anyway tells more of it than its depth.
+  EXPECT_LT(row(*s_fit, "lpt8").error.at("rmse"), row(*s_fit, "lpt_depth").error.at("rmse"));
+  EXPECT_LT(row(*s_fit, "lpt8").error.at("rmse_between"), row(*s_fit, "lpt_depth").error.at("rmse_between"));
 }
 
 /// Sums of the table for a method and protocol.

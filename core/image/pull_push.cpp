@@ -1,4 +1,4 @@
-#include "lpt/pull_push.h"
+#include "image/pull_push.h"
 
 #include "base/check.h"
 
@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace sward::lpt::detail {
+namespace sward::image {
 namespace {
 
 /// One level: weighted means of the level below.
@@ -99,4 +99,4 @@ void pullPush(std::span<float> values, std::span<const float> weight, int width,
   std::copy(levels.front().values.begin(), levels.front().values.end(), values.begin());
 }
 
-}  // namespace sward::lpt::detail
+}  // namespace sward::image

@@ -2,7 +2,7 @@
 
 #include <span>
 
-namespace sward::lpt::detail {
+namespace sward::image {
 
 /// Fills the pixels of weight 0 from those that have one, by pull and push (Gortler et al. 1996, section 3.4): weighted
 /// means down a pyramid of halved images, and back up where nothing is known, interpolated bilinearly. Pixels with a
@@ -11,4 +11,4 @@ namespace sward::lpt::detail {
 void pullPush(std::span<float> values, std::span<const float> weight, int width, int height, int channels,
               bool periodic);
 
-}  // namespace sward::lpt::detail
+}  // namespace sward::image

@@ -74,7 +74,7 @@ class Levels {
     m_error.name = "texel_lod_error";
     m_error.title = "Levels of detail: error of transmittance";
     m_error.xLabel = "voxels along a side";
-    m_error.yLabel = "rmse of mean transmittance over directions";
+    m_error.yLabel = "rmse of transmittance";
     m_error.caption =
         "Against rays through the triangles. Levels that keep opacity stay where the finest is; those that keep the "
         "mean density hide more at every step.";

@@ -106,7 +106,9 @@ Result<void> addAutumns(Section& section) {
   shares.name = "wither_autumn_shares";
   shares.title = "Water and chlorophyll over the season";
   shares.yLabel = "share of what there was";
-  shares.caption = "What drives withering: turgor and length follow water, colour follows both.";
+  shares.caption =
+      "What drives withering: turgor and length follow water, colour follows both. With ample water chlorophyll falls "
+      "as in the normal autumn.";
   for (const Preset& preset : kPresets) {
     wither::AgeingOptions ageing;
     ageing.autumn = preset.autumn;
@@ -122,7 +124,7 @@ Result<void> addAutumns(Section& section) {
     }
     turn.series.push_back(std::move(tip));
     shares.series.push_back(std::move(water));
-    shares.series.push_back(std::move(green));
+    if (preset.autumn != wither::Autumn::AmpleWater) shares.series.push_back(std::move(green));
     Row row;
     row.method = "autumn";
     row.numbersAndNames = {{"autumn", '"' + std::string(preset.name) + '"'},

@@ -124,7 +124,7 @@ TEST(TexelBaker, AgesWithoutVoxelisingAnew) {
 TEST(TexelBaker, LevelsHalveDownToOneBrick) {
   TexelBaker baker;
   const auto bake = baker.texels(texelProject(), {}).value();
-  ASSERT_GE(bake->levels.size(), 2u);
+  ASSERT_EQ(bake->levels.size(), 3u);  // 32, 16, 8
   for (std::size_t i = 1; i < bake->levels.size(); ++i) {
     const wither::TexelGrid &fine = bake->levels[i - 1].texel->grid(), &coarse = bake->levels[i].texel->grid();
     EXPECT_EQ(coarse.columns * 2, fine.columns);
@@ -132,6 +132,18 @@ TEST(TexelBaker, LevelsHalveDownToOneBrick) {
     EXPECT_EQ(bake->levels[i].sky.front.size(), bake->levels[i].texel->size());
   }
   EXPECT_EQ(bake->soil.size(), 32u * 32u);
+}
+
+TEST(TexelBaker, GridsOfAnyHeightCanBeHalved) {
+  for (const double height : {1e-3, 0.05, 0.3, 0.79, 1.0, 1.7, 40.0}) {
+    const wither::TexelGrid grid = texelGridOf(1.0, height, 128);
+    ASSERT_TRUE(wither::checkGrid(grid).ok());
+    const int bricks = grid.layers / wither::TexelGrid::kBrick;
+    EXPECT_EQ(bricks & (bricks - 1), 0) << height;
+    if (height < 0.1 || height > 30.0) continue;
+    const double stretch = grid.voxelM().z / grid.voxelM().x;
+    EXPECT_LE(std::max(stretch, 1.0 / stretch), std::sqrt(2.0) + 1e-9) << height;
+  }
 }
 
 TEST(TexelBaker, MingledSamplesWeighByTheirDensity) {

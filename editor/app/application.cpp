@@ -72,11 +72,21 @@ std::optional<double> Application::nextWake() const {
   std::optional<double> wake = m_live->nextWake();
   const auto sooner = [&](double at) { wake = wake ? std::min(*wake, at) : at; };
   if (m_toasts.needFrames()) sooner(m_seconds + kToastSeconds);
-  if (m_ui.playingDay || m_viewport.flying()) sooner(m_seconds + 1.0 / 30.0);
+  if (m_ui.playingDay || m_ui.season.running || m_viewport.flying()) sooner(m_seconds + 1.0 / 30.0);
   return wake;
 }
 
+void Application::playSeason(double seconds) {
+  // A frame that was held up does not make the season jump.
+  const double elapsed = std::clamp(seconds - m_lastFrame, 0.0, 0.1);
+  m_lastFrame = seconds;
+  if (!m_ui.season.running) return;
+  advancePlay(m_ui.season, m_document->project().wither.ageing, elapsed);
+  m_ui.lastMotion = seconds;
+}
+
 void Application::frame(double seconds, int width, int height) {
+  playSeason(seconds);
   m_seconds = seconds;
   m_noticed = false;
   m_itemLog.beginFrame();

@@ -15,6 +15,7 @@
 #include "panels/inspector.h"
 #include "panels/light_panel.h"
 #include "panels/outliner.h"
+#include "panels/season_panel.h"
 #include "panels/panel_context.h"
 #include "panels/camera_control.h"
 #include "panels/viewport.h"
@@ -105,6 +106,7 @@ class Application : public EditSink {
   void saveView();
   void updateView();
   void removeView();
+  void playSeason(double seconds);
   void openDocumentation();
   gpu::Device device() const;
 
@@ -174,6 +176,7 @@ class Application : public EditSink {
   CurvePanel m_curves;
   LightPanel m_lights;
   DayPanel m_day;
+  SeasonPanel m_season;
   CommandPalette m_palette;
   Dialogs m_dialogs;
   DialogActions m_dialogActions;
@@ -184,6 +187,7 @@ class Application : public EditSink {
   std::vector<Shortcut> m_keys;  ///< pressed since the last frame
   BottomTab m_shownTab = BottomTab::Curves;
   double m_seconds = 0.0;
+  double m_lastFrame = 0.0;
   bool m_quit = false;
   bool m_noticed = false;
   bool m_styleChanged = true;

@@ -260,6 +260,31 @@ void Application::registerViewActions() {
        .shortcuts = keys({"U"}),
        .run = [this] { m_ui.tool = m_ui.tool == ViewportTool::Sun ? ViewportTool::Orbit : ViewportTool::Sun; },
        .checked = [this] { return m_ui.tool == ViewportTool::Sun; }});
+  m_actions.add({.id = "season.play",
+                 .menu = "View",
+                 .label = "Play the season",
+                 .help = "Show the sward wither; the project stays as it is",
+                 .icon = icon::kPlay,
+                 .shortcuts = keys({"Space"}),
+                 .run =
+                     [this] {
+                       togglePlay(m_ui, m_document->project());
+                       m_ui.bottomTab = BottomTab::Season;
+                       m_ui.showBottom = true;
+                     },
+                 .checked = [this] { return m_ui.season.running; },
+                 .separatorBefore = true});
+  m_actions.add({.id = "season.stop",
+                 .menu = "View",
+                 .label = "Back to the project's weathering",
+                 .help = "Show the weathering degree that the project has",
+                 .icon = icon::kStop,
+                 .run =
+                     [this] {
+                       m_ui.season.running = false;
+                       m_ui.season.at.reset();
+                     },
+                 .enabled = [this] { return m_ui.season.at.has_value(); }});
   const auto toggle = [this](const char* id, const char* label, const char* shortcut, bool UiState::*shown,
                              bool first) {
     m_actions.add({.id = id,

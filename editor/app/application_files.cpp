@@ -94,6 +94,7 @@ void Application::showDocument(Document document) {
     m_ui.camera = scene::View{};
   }
   m_ui.activeCurve.clear();
+  m_ui.season = {};
   if (!m_document->file().empty()) m_preferences.addRecent(m_document->file());
   m_watch.watchProject(m_document->file(), m_document->snapshot());
   showMissingAssets();

@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "panels/history_panel.h"
 #include "panels/status_bar.h"
+#include "panels/view_edits.h"
 #include "widgets/icons.h"
 #include "widgets/parts.h"
 #include "widgets/theme.h"
@@ -169,18 +170,20 @@ void Application::drawCompareControls() {
   ImGui::TextDisabled("against");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(px(180.0f));
-  const auto now =
-      std::find_if(kOthers.begin(), kOthers.end(), [&](const auto& o) { return o.first == compare.other; });
+  const bool texels = drawsTexels(m_document->project());
+  const CompareState::Other shown = shownComparison(m_ui, m_document->project()).other;
+  const auto now = std::find_if(kOthers.begin(), kOthers.end(), [&](const auto& o) { return o.first == shown; });
   if (ImGui::BeginCombo("##other", now->second)) {
     for (const auto& [other, label] : kOthers) {
-      if (ImGui::Selectable(label, other == compare.other)) compare.other = other;
+      // The other ways are ways to draw layers.
+      if (texels && other != CompareState::Other::Reference) continue;
+      if (ImGui::Selectable(label, other == shown)) compare.other = other;
       logItem("compare:", label);
     }
     ImGui::EndCombo();
   }
   logItem("compare.other");
-  if (compare.other == CompareState::Other::Reference && ImGui::IsItemHovered())
-    ImGui::SetTooltip("%s", kReferenceHelp);
+  if (shown == CompareState::Other::Reference && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", kReferenceHelp);
   ImGui::SameLine();
   bool difference = compare.show == Comparison::Show::Difference;
   if (ImGui::Checkbox("Difference", &difference))
@@ -256,7 +259,8 @@ void Application::drawPanels(PanelContext& context, int width, int height) {
 }
 
 void Application::drawBottom(PanelContext& context) {
-  constexpr std::array<std::pair<BottomTab, const char*>, 4> kTabs{{{BottomTab::Curves, "Curves"},
+  constexpr std::array<std::pair<BottomTab, const char*>, 5> kTabs{{{BottomTab::Curves, "Curves"},
+                                                                    {BottomTab::Season, "Season"},
                                                                     {BottomTab::Lights, "Light directions"},
                                                                     {BottomTab::Day, "Day"},
                                                                     {BottomTab::History, "History"}}};
@@ -280,6 +284,9 @@ void Application::drawTab(PanelContext& context, BottomTab tab) {
   switch (tab) {
     case BottomTab::Curves:
       m_curves.draw(context);
+      break;
+    case BottomTab::Season:
+      m_season.draw(context);
       break;
     case BottomTab::Lights:
       m_lights.draw(context);

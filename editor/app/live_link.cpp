@@ -1,5 +1,7 @@
 #include "app/live_link.h"
 
+#include "panels/view_edits.h"
+
 #include <algorithm>
 #include <chrono>
 
@@ -123,24 +125,28 @@ bool LiveLink::takeThumbnails() {
 
 void LiveLink::update(const Document& document, const UiState& ui, int width, int height, double seconds) {
   // What only inspections show is baked while it is looked at.
-  if (const bool inspect = ui.mode.needsInspection(); inspect != m_inspecting) {
+  const render::ViewMode mode = shownMode(ui, document.project());
+  if (const bool inspect = mode.needsInspection(); inspect != m_inspecting) {
     m_inspecting = inspect;
     m_bakes.inspect(inspect);
     if (inspect) m_revision = 0;
   }
-  if (document.revision() != m_revision) {
+  const std::optional<double> weathering = ui.season.at ? std::optional(ui.season.weathering) : std::optional<double>();
+  if (document.revision() != m_revision || weathering != m_weathering) {
+    if (document.revision() != m_revision) requestThumbnails(document);
     m_revision = document.revision();
-    m_bakes.request(document.snapshot(), m_revision);
-    requestThumbnails(document);
+    m_weathering = weathering;
+    m_bakes.request(shownProject(document, ui), m_revision);
   }
-  updateOther(document, ui.compare);
+  const CompareState compare = shownComparison(ui, document.project());
+  updateOther(document, compare);
   m_state.stale = m_bakes.status().running;
-  if (!m_state.ground || width < 1 || height < 1) return;
+  if (!m_state.ground || width < 1 || height < 1 || !groundFits(document.project())) return;
   if (m_inspecting && !m_inspection) return;
   const bool moved = ui.inputActive || seconds - ui.lastMotion < kSettleSeconds;
-  Wanted wanted{document.snapshot(), m_state.ground, ui.camera,     width,        height, ui.mode,
-                ui.compare,          moved,          m_otherGround, m_inspection, false,  {}};
-  updateReference(ui, wanted);
+  Wanted wanted{document.snapshot(), m_state.ground, ui.camera, width, height, mode, compare, moved,
+                m_otherGround,       m_inspection,   false,     {}};
+  updateReference(wanted);
   if (m_wanted == wanted) return;
   m_settleAt = moved ? std::optional(seconds + kSettleSeconds) : std::nullopt;
   // More of the reference leaves the project's own picture as it is.
@@ -148,6 +154,17 @@ void LiveLink::update(const Document& document, const UiState& ui, int width, in
   if (m_wanted != wanted) m_state.pictureFinal = false;
   requestPicture(wanted);
   m_wanted = std::move(wanted);
+}
+
+Snapshot LiveLink::shownProject(const Document& document, const UiState& ui) {
+  if (!ui.season.at) return document.snapshot();
+  auto shown = std::make_shared<project::Project>(document.project());
+  shown->wither.weathering = ui.season.weathering;
+  return shown;
+}
+
+bool LiveLink::groundFits(const project::Project& project) const {
+  return (m_state.ground->texels != nullptr) == drawsTexels(project);
 }
 
 bool LiveLink::pollReference() {
@@ -164,9 +181,9 @@ bool LiveLink::pollReference() {
   return changed;
 }
 
-void LiveLink::updateReference(const UiState& ui, Wanted& wanted) {
-  const bool compared = ui.compare.on && ui.compare.other == CompareState::Other::Reference;
-  if (!compared || !ui.mode.plain()) {
+void LiveLink::updateReference(Wanted& wanted) {
+  const bool compared = wanted.compare.on && wanted.compare.other == CompareState::Other::Reference;
+  if (!compared || !wanted.mode.plain()) {
     if (m_reference) m_reference->close();
     m_state.reference.reset();
     return;

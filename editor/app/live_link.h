@@ -64,15 +64,19 @@ class LiveLink {
     std::shared_ptr<const ReferencePicture> reference;  ///< as far as it is traced
     bool operator==(const Wanted&) const = default;
   };
+  /// The document's project at the weathering degree that is shown.
+  Snapshot shownProject(const Document& document, const UiState& ui);
   void takeGrounds();
   bool takePicture();
   bool takeThumbnails();
   void requestPicture(const Wanted& wanted);
   void requestThumbnails(const Document& document);
   void updateOther(const Document& document, const CompareState& compare);
+  /// Whether the newest ground is of the kind that the project is drawn with.
+  bool groundFits(const project::Project& project) const;
   bool pollReference();
   /// Asks for the reference of what is wanted, or lets go of it.
-  void updateReference(const UiState& ui, Wanted& wanted);
+  void updateReference(Wanted& wanted);
 
   const UiGl& m_gl;
   BakeService::Options m_bakeOptions;
@@ -82,7 +86,8 @@ class LiveLink {
   LiveState m_state;
   std::map<std::uint64_t, PanelPicture> m_thumbnailTextures;  ///< by the plant's index
   std::uint64_t m_revision = 0;
-  Snapshot m_groundProject;  ///< that m_state.ground was baked from
+  std::optional<double> m_weathering;  ///< that is asked for in place of the document's own
+  Snapshot m_groundProject;            ///< that m_state.ground was baked from
   std::shared_ptr<const bake::Inspection> m_inspection;
   bool m_inspecting = false;
   std::optional<Wanted> m_wanted;

@@ -1,12 +1,15 @@
 #include "document/edits.h"
 
 #include "project/limits.h"
+#include "wither/season.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace sward::editor {
 namespace {
+
+constexpr std::size_t kMaxMingleSamples = 64;  ///< as the schema says
 
 using project::Plant;
 using project::Project;
@@ -147,6 +150,57 @@ bool updateView(Project& project, std::size_t index, const View& camera) {
   project.views[index] = camera;
   project.views[index].name = std::move(name);
   return true;
+}
+
+void chooseAutumn(Project& project, wither::Autumn autumn) {
+  wither::AgeingOptions& ageing = project.wither.ageing;
+  if (autumn == wither::Autumn::Custom && ageing.autumn != autumn) {
+    if (ageing.water.points().empty()) ageing.water = wither::waterCurve(ageing);
+    if (ageing.chlorophyll.points().empty()) ageing.chlorophyll = wither::chlorophyllCurve(ageing);
+  }
+  ageing.autumn = autumn;
+}
+
+void setWater(Project& project, const base::Curve& curve) {
+  wither::AgeingOptions& ageing = project.wither.ageing;
+  if (ageing.autumn != wither::Autumn::Custom) ageing.chlorophyll = wither::chlorophyllCurve(ageing);
+  ageing.water = curve;
+  ageing.autumn = wither::Autumn::Custom;
+}
+
+void setChlorophyll(Project& project, const base::Curve& curve) {
+  wither::AgeingOptions& ageing = project.wither.ageing;
+  if (ageing.autumn != wither::Autumn::Custom) ageing.water = wither::waterCurve(ageing);
+  ageing.chlorophyll = curve;
+  ageing.autumn = wither::Autumn::Custom;
+}
+
+std::optional<std::size_t> addMingleSample(Project& project) {
+  std::vector<wither::MingleSample>& samples = project.wither.mingle;
+  wither::MingleSample sample;
+  if (samples.empty()) {
+    sample.name = "rest";
+    samples.push_back(sample);
+  }
+  double sum = 0.0;
+  for (const wither::MingleSample& other : samples) sum += other.share;
+  sample.name = "sample";
+  // As many blades as the others have on average, so that it is seen.
+  sample.share = sum > 0.0 ? sum / static_cast<double>(samples.size()) : 1.0;
+  return insertAfter(samples, sample, kAtEnd, kMaxMingleSamples, "sample");
+}
+
+void mingleGreenTurningStraw(Project& project) {
+  const auto curve = [](std::vector<base::CurvePoint> points) {
+    return base::Curve::fromPoints(std::move(points)).value();  // x increases and all is finite
+  };
+  project.wither.mingle = {{"green", 0.4, 1.0, curve({{0.0, 0.0}, {0.5, 0.05}, {1.0, 0.35}})},
+                           {"turning", 0.35, 1.0, curve({{0.0, 0.0}, {1.0, 1.0}})},
+                           {"straw", 0.25, 1.0, curve({{0.0, 0.0}, {0.2, 0.6}, {0.4, 0.9}, {1.0, 1.0}})}};
+}
+
+bool removeMingleSample(Project& project, std::size_t index) {
+  return removeAt(project.wither.mingle, index);
 }
 
 bool convertToList(Project& project, const std::vector<SunAngles>& directions) {

@@ -38,6 +38,21 @@ std::string renameView(project::Project& project, std::size_t index, const std::
 /// Gives the view the camera of `camera`; its name stays.
 bool updateView(project::Project& project, std::size_t index, const scene::View& camera);
 
+/// Chooses an autumn. Own curves begin with those of the autumn before; curves that were set earlier are kept.
+void chooseAutumn(project::Project& project, wither::Autumn autumn);
+/// Gives the ageing these curves of water or chlorophyll: it becomes an autumn of own curves, and the other curve stays
+/// what it was under the autumn before.
+void setWater(project::Project& project, const base::Curve& curve);
+void setChlorophyll(project::Project& project, const base::Curve& curve);
+
+/// The new sample's index, after the last; nothing when the list is full. The first one is added to the whole sward: it
+/// and "rest" share the blades.
+std::optional<std::size_t> addMingleSample(project::Project& project);
+/// Green blades that lag behind, blades that age with the sward, and straw that is ahead of it, in place of all
+/// samples.
+void mingleGreenTurningStraw(project::Project& project);
+bool removeMingleSample(project::Project& project, std::size_t index);
+
 /// Turns the lights into a list of these directions (scene::lightDirections of what they were, say). False, and no
 /// change, when there are none or more than the format holds.
 bool convertToList(project::Project& project, const std::vector<scene::SunAngles>& directions);

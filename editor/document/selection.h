@@ -10,7 +10,7 @@ namespace sward::editor {
 
 /// What the inspector shows: one entry of the outliner.
 struct Selection {
-  enum class Kind { Ground, Plant, Lights, Tiles, Terrain, SunSky, View, Sampling, Fit, Render };
+  enum class Kind { Ground, Plant, Lights, Tiles, Terrain, Wither, Leaf, SunSky, View, Sampling, Fit, Render };
 
   Kind kind = Kind::Ground;
   std::size_t index = 0;  ///< of the plant or view; 0 for the other kinds

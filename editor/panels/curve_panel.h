@@ -10,7 +10,8 @@
 
 namespace sward::editor {
 
-/// The curves of the selected plant in the one curve editor: blade profile, colour along the blade, density by height.
+/// The curves of the selected plant in the one curve editor (blade profile, colour along the blade, density by height),
+/// or those of the season: water, chlorophyll, weathering and how the mingled samples age.
 /// The active one is edited; those with the same axes are drawn beneath it.
 class CurvePanel {
  public:

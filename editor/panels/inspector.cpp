@@ -10,7 +10,6 @@
 #include "scene/sun_sky.h"
 
 #include <algorithm>
-#include <memory>
 
 #include <imgui.h>
 #include <imgui_stdlib.h>
@@ -31,6 +30,10 @@ std::string titleOf(const PanelContext& context) {
       return "Tiles";
     case Selection::Kind::Terrain:
       return "Terrain";
+    case Selection::Kind::Wither:
+      return "Withering";
+    case Selection::Kind::Leaf:
+      return "Leaf colour";
     case Selection::Kind::SunSky:
       return "Sun and sky";
     case Selection::Kind::View:
@@ -45,13 +48,13 @@ std::string titleOf(const PanelContext& context) {
   return {};
 }
 
-void heading(const char* text) {
+}  // namespace
+
+void InspectorPanel::heading(const char* text) {
   ImGui::Dummy({0.0f, px(8.0f)});
   const FontScope font(theme().fonts.strong);
   ImGui::TextUnformatted(text);
 }
-
-}  // namespace
 
 FieldOptions InspectorPanel::options() const {
   FieldOptions options;
@@ -66,22 +69,6 @@ void InspectorPanel::validate(const PanelContext& context) {
   if (m_validated == context.document.revision()) return;
   m_validated = context.document.revision();
   m_problems = project::validate(*context.project);
-}
-
-template <typename Part>
-void InspectorPanel::fields(PanelContext& context, const std::string& path, const Part& part) {
-  // Widgets work on a copy; the step that is sent puts the whole part in place.
-  auto edited = std::make_shared<project::Project>(*context.project);
-  auto& value = part(*edited);
-  using Value = std::remove_reference_t<decltype(value)>;
-  static const Value kDefaults{};
-  const FieldEvents events = drawFields(path, value, kDefaults, options());
-  if (events.changed) {
-    context.edits.edit(
-        events.label, [&](project::Project& project) { part(project) = value; }, events.path);
-    m_editing = true;
-  }
-  answer(context, events);
 }
 
 void InspectorPanel::answer(PanelContext& context, const FieldEvents& events) {
@@ -126,6 +113,13 @@ void InspectorPanel::draw(PanelContext& context) {
     case Selection::Kind::Terrain:
       fields(
           context, "terrain", [](project::Project & p) -> auto& { return p.terrain; });
+      break;
+    case Selection::Kind::Wither:
+      withering(context);
+      break;
+    case Selection::Kind::Leaf:
+      fields(
+          context, "leaf", [](project::Project & p) -> auto& { return p.leaf; });
       break;
     case Selection::Kind::SunSky:
       sunAndSky(context);

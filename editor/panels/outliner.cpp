@@ -51,6 +51,9 @@ void title(const char* text) {
 void OutlinerPanel::draw(PanelContext& context) {
   plants(context);
   row(context, icon::kTerrain, "Terrain", {Selection::Kind::Terrain, 0, {}}, "");
+  title("SEASON");
+  row(context, icon::kTimer, "Withering", {Selection::Kind::Wither, 0, {}}, "");
+  row(context, icon::kPalette, "Leaf colour", {Selection::Kind::Leaf, 0, {}}, "");
   title("LIGHT");
   row(context, icon::kSun, "Sun and sky", {Selection::Kind::SunSky, 0, {}}, "");
   row(context, icon::kLight, "Light directions", {Selection::Kind::Lights, 0, {}}, "");

@@ -14,7 +14,7 @@ namespace sward::editor {
 /// What a drag in the viewport does.
 enum class ViewportTool { Orbit, Sun };
 /// What stands below the viewport.
-enum class BottomTab { Curves, Lights, Day, History };
+enum class BottomTab { Curves, Season, Lights, Day, History };
 
 /// How the viewport compares two ways of drawing.
 struct CompareState {
@@ -25,6 +25,15 @@ struct CompareState {
   enum class Other { March, Blended, BlendedPaper, Ptm, LptPaper, Reference } other = Other::Blended;
   double gain = 4.0;
   bool operator==(const CompareState&) const = default;
+};
+
+/// The season that plays in the viewport without touching the document.
+struct SeasonPlay {
+  bool running = false;
+  bool loop = true;
+  double seconds = 12.0;     ///< that a whole season takes, 2 to 120
+  std::optional<double> at;  ///< moment in [0, 1] that is shown; none: the document's own
+  double weathering = 0.0;   ///< degree at that moment
 };
 
 /// State of the window that belongs to no document: never undone, never saved with the project.
@@ -41,6 +50,7 @@ struct UiState {
   bool inputActive = false;  ///< a drag in the viewport or a field: pictures answer at half resolution
   double lastMotion = -1e9;  ///< seconds; of the camera
   bool playingDay = false;
+  SeasonPlay season;
 };
 
 }  // namespace sward::editor

@@ -1,5 +1,6 @@
 #include "panels/view_edits.h"
 
+#include "bake/withering.h"
 #include "scene/lights.h"
 #include "scene/sun_sky.h"
 
@@ -25,6 +26,20 @@ void turnSun(project::Project& project, double azimuthDeg, double elevationDeg) 
   angles.elevationDeg = std::clamp(angles.elevationDeg + elevationDeg, kLowestDeg, kHighestDeg);
   project.sun.byMoment = false;
   project.sun.angles = angles;
+}
+
+bool drawsTexels(const project::Project& project) {
+  return bake::drawnAsTexels(project);
+}
+
+render::ViewMode shownMode(const UiState& ui, const project::Project& project) {
+  return drawsTexels(project) ? render::ViewMode{} : ui.mode;
+}
+
+CompareState shownComparison(const UiState& ui, const project::Project& project) {
+  CompareState compare = ui.compare;
+  if (drawsTexels(project)) compare.other = CompareState::Other::Reference;
+  return compare;
 }
 
 }  // namespace sward::editor

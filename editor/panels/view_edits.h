@@ -1,5 +1,6 @@
 #pragma once
 
+#include "panels/ui_state.h"
 #include "project/project.h"
 
 #include <string>
@@ -13,5 +14,11 @@ namespace sward::editor {
 void turnSun(project::Project& project, double azimuthDeg, double elevationDeg);
 /// The sun's present angles, whichever way they are given; those of the options when the moment does not exist.
 scene::SunAngles sunAnglesOf(const project::Project& project);
+
+/// Whether the ground is texels, of which only the plain picture can be drawn.
+bool drawsTexels(const project::Project& project);
+/// The view mode and the comparison that the viewport shows: what is chosen, as far as the ground can be drawn so.
+render::ViewMode shownMode(const UiState& ui, const project::Project& project);
+CompareState shownComparison(const UiState& ui, const project::Project& project);
 
 }  // namespace sward::editor

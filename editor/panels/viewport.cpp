@@ -79,8 +79,22 @@ void ViewportPanel::header(PanelContext& context) {
   }
   logItem("viewport.view");
   ImGui::SameLine();
+  modes(context);
+}
+
+void ViewportPanel::modes(PanelContext& context) {
+  UiState& ui = context.ui;
+  const float scale = context.scale;
+  const render::ViewMode mode = shownMode(ui, *context.project);
+  // Texels know no layers: the choice stays for the time when layers are drawn again.
+  const bool texels = drawsTexels(*context.project);
+  const auto onlyLayers = [texels](const char* help) {
+    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    ImGui::SetTooltip("%s", texels ? "Texels are shown as the picture alone; layers can be looked into" : help);
+  };
+  ImGui::BeginDisabled(texels);
   ImGui::SetNextItemWidth(140.0f * scale);
-  if (ImGui::BeginCombo("##quantity", choiceOf(ui.mode.quantity).label)) {
+  if (ImGui::BeginCombo("##quantity", choiceOf(mode.quantity).label)) {
     for (const Choice& choice : kQuantities) {
       if (ImGui::Selectable(choice.label, ui.mode.quantity == choice.quantity)) ui.mode.quantity = choice.quantity;
       if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", choice.help);
@@ -88,15 +102,16 @@ void ViewportPanel::header(PanelContext& context) {
     }
     ImGui::EndCombo();
   }
+  onlyLayers("What the picture shows");
   logItem("viewport.quantity");
-  if (ui.mode.quantity == render::ViewQuantity::Coefficient) {
+  if (mode.quantity == render::ViewQuantity::Coefficient) {
     ImGui::SameLine();
     ImGui::SetNextItemWidth(90.0f * scale);
     ImGui::SliderInt("##coefficient", &ui.mode.coefficient, 0, context.project->fit.basis == lpt::Basis::Ptm ? 5 : 9,
                      "b%d", ImGuiSliderFlags_AlwaysClamp);
   }
   const bool response =
-      ui.mode.quantity == render::ViewQuantity::Coefficient || ui.mode.quantity == render::ViewQuantity::Luminance;
+      mode.quantity == render::ViewQuantity::Coefficient || mode.quantity == render::ViewQuantity::Luminance;
   if (response) {
     ImGui::SameLine();
     ImGui::SetNextItemWidth(120.0f * scale);
@@ -107,10 +122,13 @@ void ViewportPanel::header(PanelContext& context) {
   }
   ImGui::SameLine();
   ImGui::SetNextItemWidth(110.0f * scale);
-  const std::string layer = ui.mode.layer < 0 ? "All layers" : "Layer %d";
-  ImGui::SliderInt("##layer", &ui.mode.layer, -1, context.project->sampling.slices - 1, layer.c_str(),
-                   ImGuiSliderFlags_AlwaysClamp);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Show one slice layer alone (0 is the top); leftmost: all");
+  const std::string layer = mode.layer < 0 ? "All layers" : "Layer %d";
+  int shownLayer = mode.layer;
+  if (ImGui::SliderInt("##layer", &shownLayer, -1, context.project->sampling.slices - 1, layer.c_str(),
+                       ImGuiSliderFlags_AlwaysClamp))
+    ui.mode.layer = shownLayer;
+  ImGui::EndDisabled();
+  onlyLayers("Show one slice layer alone (0 is the top); leftmost: all");
   logItem("viewport.layer");
 }
 
@@ -241,22 +259,23 @@ void ViewportPanel::overlays(PanelContext& context) {
     pill({live.bake.error->text(), kFailed}, scale);
   } else if (!live.ground) {
     pill({"Baking the first picture", kBusy}, scale);
-  } else if (live.stale) {
+  } else if (live.stale && !context.ui.season.running) {
     constexpr std::array<const char*, 3> kNames{"coarse", "half", "full"};
     const auto quality = static_cast<std::size_t>(live.bake.quality);
     std::string text = std::string("Updating, ") + kNames[quality];
     if (live.bake.running) text += " " + std::to_string(static_cast<int>(live.bake.fraction * 100.0)) + " %";
     pill({text, kBusy}, scale);
   }
-  if (live.ground && !context.ui.mode.plain()) {
-    const render::Legend legend = render::legendOf(context.ui.mode, *live.ground, live.inspection.get());
+  const render::ViewMode mode = shownMode(context.ui, *context.project);
+  if (live.ground && !mode.plain()) {
+    const render::Legend legend = render::legendOf(mode, *live.ground, live.inspection.get());
     drawLegend(legend, ImVec2(m_left + 12.0f * scale, m_top + static_cast<float>(m_height) - 12.0f * scale));
   }
   compareOverlay(context);
 }
 
 void ViewportPanel::compareOverlay(PanelContext& context) const {
-  const CompareState& compare = context.ui.compare;
+  const CompareState compare = shownComparison(context.ui, *context.project);
   if (!compare.on) return;
   const float scale = context.scale;
   const bool reference = compare.other == CompareState::Other::Reference;

@@ -24,6 +24,7 @@ class ViewportPanel {
 
  private:
   void header(PanelContext& context);
+  void modes(PanelContext& context);
   void picture(PanelContext& context);
   void navigate(PanelContext& context, bool hovered);
   void dragSun(PanelContext& context);

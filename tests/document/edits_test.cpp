@@ -3,6 +3,7 @@
 #include "document/selection.h"
 #include "project/presets.h"
 #include "project/limits.h"
+#include "wither/season.h"
 
 #include <limits>
 #include <set>
@@ -210,6 +211,51 @@ TEST(SelectionTest, FollowsNamesThenPlaces) {
   EXPECT_EQ(followSelection(b, project).index, 1u) << "of two of that name, the one in its place";
 }
 
+TEST(WitherEdits, OwnCurvesBeginWithTheAutumnBefore) {
+  Project project;
+  chooseAutumn(project, wither::Autumn::AmpleWater);
+  EXPECT_TRUE(project.wither.ageing.water.points().empty());
+  const base::Curve water = wither::waterCurve(project.wither.ageing);
+  const base::Curve chlorophyll = wither::chlorophyllCurve(project.wither.ageing);
+  chooseAutumn(project, wither::Autumn::Custom);
+  EXPECT_EQ(project.wither.ageing.water, water);
+  EXPECT_EQ(project.wither.ageing.chlorophyll, chlorophyll);
+  // A look at another autumn does not lose them.
+  chooseAutumn(project, wither::Autumn::LowTemperature);
+  chooseAutumn(project, wither::Autumn::Custom);
+  EXPECT_EQ(project.wither.ageing.water, water);
+}
+
+TEST(WitherEdits, AnEditedCurveKeepsTheOtherOneOfItsAutumn) {
+  Project project;
+  project.wither.ageing.autumn = wither::Autumn::LowTemperature;
+  const base::Curve water = wither::waterCurve(project.wither.ageing);
+  const base::Curve half = base::Curve::constant(0.5);
+  setChlorophyll(project, half);
+  EXPECT_EQ(project.wither.ageing.autumn, wither::Autumn::Custom);
+  EXPECT_EQ(project.wither.ageing.chlorophyll, half);
+  EXPECT_EQ(project.wither.ageing.water, water);
+  setWater(project, half);
+  EXPECT_EQ(project.wither.ageing.water, half);
+  EXPECT_EQ(project.wither.ageing.chlorophyll, half);
+}
+
+TEST(WitherEdits, SamplesAreAddedUpToTheLimitAndRemoved) {
+  Project project = lawn();
+  EXPECT_FALSE(removeMingleSample(project, 0));
+  EXPECT_EQ(addMingleSample(project), 1U);
+  EXPECT_THAT(names(project.wither.mingle), ElementsAre("rest", "sample"));
+  EXPECT_EQ(project.wither.mingle[0].share, project.wither.mingle[1].share);
+  while (addMingleSample(project)) ASSERT_LE(project.wither.mingle.size(), 64U);
+  EXPECT_EQ(project.wither.mingle.size(), 64U);
+  EXPECT_TRUE(project::validate(project).empty());
+  EXPECT_TRUE(removeMingleSample(project, 1));
+  EXPECT_EQ(project.wither.mingle.size(), 63U);
+  mingleGreenTurningStraw(project);
+  EXPECT_THAT(names(project.wither.mingle), ElementsAre("green", "turning", "straw"));
+  EXPECT_TRUE(project::validate(project).empty());
+}
+
 TEST(SelectionTest, EveryKindStaysValidInAnEmptyProject) {
   const Project empty;
   for (int kind = 0; kind <= static_cast<int>(Selection::Kind::Render); ++kind) {
@@ -233,6 +279,8 @@ TEST(SelectionTest, FindsWhatShowsAProblem) {
   EXPECT_EQ(selectionAt("lights.directions[3].azimuthDeg", project)->kind, Selection::Kind::Lights);
   EXPECT_EQ(selectionAt("sun.moment.day", project)->kind, Selection::Kind::SunSky);
   EXPECT_EQ(selectionAt("terrain.hills.seed", project)->kind, Selection::Kind::Terrain);
+  EXPECT_EQ(selectionAt("wither.mingle[0].ageing", project)->kind, Selection::Kind::Wither);
+  EXPECT_EQ(selectionAt("leaf.chlorophyll", project)->kind, Selection::Kind::Leaf);
   EXPECT_EQ(selectionAt("output", project)->kind, Selection::Kind::Render);
   EXPECT_FALSE(selectionAt("name", project));
   EXPECT_FALSE(selectionAt("", project));

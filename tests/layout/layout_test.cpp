@@ -77,10 +77,10 @@ TEST(Layout, IncludesFollowTheArrows) {
 
 /// The same for editor/: what each folder of it may include of the others and of core/.
 TEST(Layout, EditorIncludesFollowTheArrows) {
-  const std::set<std::string> core{"base",  "image",   "mesh", "scene", "terrain", "trace",  "lpt",
-                                   "tiles", "project", "bake", "gpu",   "render",  "export", "report"};
+  const std::set<std::string> core{"base",    "image", "mesh", "scene",  "terrain", "trace",  "lpt",   "tiles",
+                                   "project", "bake",  "gpu",  "render", "export",  "report", "wither"};
   const std::map<std::string, std::set<std::string>> allowed{
-      {"document", {"base", "project"}},
+      {"document", {"base", "project", "wither"}},
       {"live",
        {"base", "image", "mesh", "scene", "terrain", "trace", "lpt", "tiles", "project", "bake", "gpu", "render"}},
       {"widgets", {"base", "image", "scene", "project"}},

@@ -1,0 +1,252 @@
+#include "panels/season_panel.h"
+
+#include "panels/view_edits.h"
+#include "widgets/icons.h"
+#include "widgets/item_log.h"
+#include "widgets/parts.h"
+#include "widgets/theme.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include <imgui.h>
+
+namespace sward::editor {
+namespace {
+
+constexpr int kSteps = 160;
+constexpr double kLeastSeconds = 2.0, kMostSeconds = 120.0;
+
+struct Line {
+  const char* name;
+  base::Curve curve;  ///< empty: equal to the season
+  ImU32 colour;
+  double at(double season) const { return curve.points().empty() ? season : curve(season); }
+};
+
+std::array<Line, 3> linesOf(const wither::AgeingOptions& ageing) {
+  const Palette& c = theme().colours;
+  return {{{"Water", wither::waterCurve(ageing), c.info},
+           {"Chlorophyll", wither::chlorophyllCurve(ageing), c.accent},
+           {"Weathering", ageing.weathering, c.sun}}};
+}
+
+/// Names and values at a moment, in the plot's upper right corner; `right` and `top` are where it ends and begins.
+void drawLegend(const std::array<Line, 3>& lines, double moment, float right, float top) {
+  const Palette& c = theme().colours;
+  const FontScope font(theme().fonts.small);
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  std::array<std::string, 3> texts;
+  float width = 0.0f;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    std::array<char, 48> text{};
+    std::snprintf(text.data(), text.size(), "%s  %.0f %%", lines[i].name, 100.0 * lines[i].at(moment));
+    texts[i] = text.data();
+    width = std::max(width, ImGui::CalcTextSize(text.data()).x);
+  }
+  const float line = ImGui::GetTextLineHeight() + px(3.0f);
+  const float left = right - width - px(26.0f);
+  draw->AddRectFilled({left, top}, {right, top + line * 3.0f + px(6.0f)}, faded(c.panel, 0.85f), px(4.0f));
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const float y = top + px(4.0f) + line * static_cast<float>(i);
+    draw->AddRectFilled({left + px(6.0f), y + 0.5f * line - px(3.0f)}, {left + px(16.0f), y + 0.5f * line},
+                        lines[i].colour);
+    draw->AddText({left + px(21.0f), y}, c.text, texts[i].c_str());
+  }
+}
+
+}  // namespace
+
+double weatheringAt(const wither::AgeingOptions& ageing, double season) {
+  const double at = std::clamp(season, 0.0, 1.0);
+  return ageing.weathering.points().empty() ? at : std::clamp(ageing.weathering(at), 0.0, 1.0);
+}
+
+double shownMoment(const UiState& ui, const project::Project& project) {
+  if (ui.season.at) return *ui.season.at;
+  const double wanted = std::clamp(project.wither.weathering, 0.0, 1.0);
+  const wither::AgeingOptions& ageing = project.wither.ageing;
+  if (ageing.weathering.points().empty()) return wanted;
+  // As wither::Season::seasonOf, without the season's bodies: the earliest moment of the degree.
+  if (weatheringAt(ageing, 0.0) >= wanted) return 0.0;
+  const double reached = std::min(wanted, weatheringAt(ageing, 1.0));
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (low + high);
+    (weatheringAt(ageing, middle) >= reached ? high : low) = middle;
+  }
+  return high;
+}
+
+void togglePlay(UiState& ui, const project::Project& project) {
+  SeasonPlay& play = ui.season;
+  if (play.running) {
+    play.running = false;
+    return;
+  }
+  double from = shownMoment(ui, project);
+  if (from >= 1.0) from = 0.0;
+  play.at = from;
+  play.weathering = weatheringAt(project.wither.ageing, from);
+  play.running = true;
+}
+
+void advancePlay(SeasonPlay& play, const wither::AgeingOptions& ageing, double seconds) {
+  double at = play.at.value_or(0.0) + seconds / std::clamp(play.seconds, kLeastSeconds, kMostSeconds);
+  if (at >= 1.0) {
+    play.running = play.loop;
+    at = play.loop ? std::fmod(at, 1.0) : 1.0;
+  }
+  play.at = at;
+  play.weathering = weatheringAt(ageing, at);
+}
+
+void SeasonPanel::draw(PanelContext& context) {
+  controls(context);
+  timeline(context);
+}
+
+void SeasonPanel::set(PanelContext& context, double weathering) {
+  const double value = std::clamp(weathering, 0.0, 1.0);
+  context.ui.season.running = false;
+  context.ui.season.at.reset();
+  context.edits.edit(
+      "weathering degree", [value](project::Project& p) { p.wither.weathering = value; }, "wither.weathering");
+  context.ui.inputActive = true;
+}
+
+void SeasonPanel::release(PanelContext& context) {
+  context.edits.closeStep();
+}
+
+void SeasonPanel::controls(PanelContext& context) {
+  playControls(context);
+  ImGui::SameLine(0.0f, px(16.0f));
+  degree(context);
+  layersNote(context);
+}
+
+void SeasonPanel::playControls(PanelContext& context) {
+  SeasonPlay& play = context.ui.season;
+  const wither::AgeingOptions& ageing = context.project->wither.ageing;
+  if (iconButton("season.start", icon::kPrevious, "Show the beginning of the season")) {
+    play.at = 0.0;
+    play.weathering = weatheringAt(ageing, 0.0);
+    context.ui.lastMotion = context.seconds;
+  }
+  ImGui::SameLine(0.0f, px(4.0f));
+  if (ImGui::Button(
+          (std::string(play.running ? icon::kPause : icon::kPlay) + (play.running ? "  Pause" : "  Play")).c_str(),
+          {px(84.0f), 0.0f}))
+    context.edits.run("season.play");
+  logItem("season.play");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Show the season pass; the project stays as it is  (Space)");
+  ImGui::SameLine(0.0f, px(4.0f));
+  if (iconButton("season.stop", icon::kStop, "Back to the project's own weathering degree", "", play.at.has_value()))
+    context.edits.run("season.stop");
+  ImGui::SameLine(0.0f, px(4.0f));
+  if (toolToggle("season.loop", icon::kRefresh, play.loop, "Begin again at the end")) play.loop = !play.loop;
+  ImGui::SameLine(0.0f, px(10.0f));
+  ImGui::SetNextItemWidth(px(96.0f));
+  auto seconds = static_cast<float>(play.seconds);
+  if (ImGui::SliderFloat("##seconds", &seconds, static_cast<float>(kLeastSeconds), static_cast<float>(kMostSeconds),
+                         "%.0f s", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
+    play.seconds = seconds;
+  logItem("season.seconds");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("How long a whole season plays");
+}
+
+void SeasonPanel::degree(PanelContext& context) {
+  const SeasonPlay& play = context.ui.season;
+  const double shown = play.at ? play.weathering : context.project->wither.weathering;
+  auto value = static_cast<float>(100.0 * shown);
+  const float least = px(120.0f);
+  ImGui::SetNextItemWidth(std::clamp(ImGui::GetContentRegionAvail().x - px(110.0f), least, px(260.0f)));
+  if (ImGui::SliderFloat("##degree", &value, 0.0f, 100.0f, "Weathering %.0f %%", ImGuiSliderFlags_AlwaysClamp))
+    set(context, 0.01 * value);
+  if (ImGui::IsItemActive()) context.ui.inputActive = true;
+  if (ImGui::IsItemDeactivatedAfterEdit()) release(context);
+  logItem("season.degree");
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("%s", play.at ? "What is shown; moving it sets the project's weathering degree"
+                                    : "The project's weathering degree");
+  if (!play.at) return;
+  ImGui::SameLine(0.0f, px(6.0f));
+  const double weathering = play.weathering;
+  if (ImGui::Button("Keep")) {
+    set(context, weathering);
+    release(context);
+  }
+  logItem("season.keep");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Give the project the weathering degree that is shown");
+}
+
+void SeasonPanel::layersNote(PanelContext& context) {
+  if (drawsTexels(*context.project)) return;
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextDisabled("%s  Layers are baked anew at every moment; texels follow at once.", icon::kInfo);
+  ImGui::SameLine();
+  if (ImGui::Button("Draw as texels"))
+    context.edits.edit("draw as texels", [](project::Project& p) { p.render.method = render::GroundMethod::Texels; });
+  logItem("season.texels");
+}
+
+void SeasonPanel::timeline(PanelContext& context) {
+  const Palette& colours = theme().colours;
+  const wither::AgeingOptions& ageing = context.project->wither.ageing;
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  const ImVec2 size{std::max(room.x, px(60.0f)), std::max(room.y - px(4.0f), px(60.0f))};
+  ImGui::InvisibleButton("##season", size);
+  logItem("season.timeline");
+  const float base = size.y - px(18.0f);
+  const auto x = [&](double season) { return origin.x + static_cast<float>(season) * size.x; };
+  const auto y = [&](double value) {
+    return origin.y + px(6.0f) + (base - px(12.0f)) * (1.0f - static_cast<float>(std::clamp(value, 0.0, 1.0)));
+  };
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->PushClipRect(origin, {origin.x + size.x, origin.y + size.y}, true);
+  draw->AddRectFilled(origin, {origin.x + size.x, origin.y + base}, colours.plot, px(4.0f));
+  for (const double value : {0.0, 0.5, 1.0}) draw->AddLine({x(0.0), y(value)}, {x(1.0), y(value)}, colours.plotGrid);
+  {
+    const FontScope font(theme().fonts.small);
+    for (int tenth = 0; tenth <= 10; ++tenth) {
+      draw->AddLine({x(0.1 * tenth), origin.y}, {x(0.1 * tenth), origin.y + base}, colours.plotGrid);
+      const std::string label = tenth == 0    ? "Season's beginning"
+                                : tenth == 10 ? "end"
+                                : tenth == 1  ? ""
+                                              : std::to_string(10 * tenth) + " %";
+      const float width = ImGui::CalcTextSize(label.c_str()).x;
+      const float left = std::clamp(x(0.1 * tenth) - 0.5f * width, origin.x, origin.x + size.x - width);
+      draw->AddText({left, origin.y + base + px(2.0f)}, colours.textDim, label.c_str());
+    }
+  }
+  const std::array<Line, 3> lines = linesOf(ageing);
+  for (const Line& line : lines) {
+    std::array<ImVec2, kSteps + 1> points;
+    for (int i = 0; i <= kSteps; ++i) {
+      const double season = static_cast<double>(i) / kSteps;
+      points[static_cast<std::size_t>(i)] = {x(season), y(line.at(season))};
+    }
+    draw->AddPolyline(points.data(), kSteps + 1, line.colour, 0, px(1.5f));
+  }
+  const double moment = shownMoment(context.ui, *context.project);
+  draw->AddLine({x(moment), origin.y}, {x(moment), origin.y + base}, colours.text, px(1.5f));
+  for (const Line& line : lines) draw->AddCircleFilled({x(moment), y(line.at(moment))}, px(4.0f), line.colour);
+  // The legend keeps out of the head's way.
+  const bool atRight = moment < 0.7;
+  drawLegend(lines, moment, atRight ? origin.x + size.x - px(8.0f) : origin.x + px(150.0f), origin.y + px(8.0f));
+  draw->PopClipRect();
+  if (ImGui::IsItemActive()) {
+    m_dragging = true;
+    set(context, weatheringAt(ageing, (ImGui::GetIO().MousePos.x - origin.x) / size.x));
+  } else if (m_dragging) {
+    m_dragging = false;
+    release(context);
+  }
+}
+
+}  // namespace sward::editor

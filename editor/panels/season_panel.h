@@ -1,0 +1,37 @@
+#pragma once
+
+#include "panels/panel_context.h"
+#include "wither/season.h"
+
+#include <optional>
+
+namespace sward::editor {
+
+/// The season's timeline: water, chlorophyll and weathering over time, a head to scrub the project's weathering degree,
+/// and play, which shows other moments without touching the document.
+class SeasonPanel {
+ public:
+  void draw(PanelContext& context);
+
+ private:
+  void controls(PanelContext& context);
+  void playControls(PanelContext& context);
+  void degree(PanelContext& context);
+  void layersNote(PanelContext& context);
+  void timeline(PanelContext& context);
+  void set(PanelContext& context, double weathering);
+  void release(PanelContext& context);
+
+  bool m_dragging = false;
+};
+
+/// The degree of weathering at a moment of the season, both in [0, 1].
+double weatheringAt(const wither::AgeingOptions& ageing, double season);
+/// The moment that the viewport shows: what plays, else where the project's weathering degree stands.
+double shownMoment(const UiState& ui, const project::Project& project);
+/// Starts or pauses the season, from its beginning where it had ended.
+void togglePlay(UiState& ui, const project::Project& project);
+/// Moves what plays on by so many seconds; at the end it begins anew or rests.
+void advancePlay(SeasonPlay& play, const wither::AgeingOptions& ageing, double seconds);
+
+}  // namespace sward::editor

@@ -138,11 +138,13 @@ TexelBaker& TexelBaker::operator=(TexelBaker&&) noexcept = default;
 
 wither::TexelGrid texelGridOf(double sideM, double heightM, int columns) {
   constexpr int kBrick = wither::TexelGrid::kBrick;
-  const double bricks = heightM / sideM * columns / kBrick;
+  // A power of two of bricks, so that levels can halve them as often as the columns: a texel of one level alone would
+  // be drawn far away as it is near. Voxels are higher or lower than they are wide by 1.42 at most.
+  const double bricks = std::max(heightM / sideM * columns / kBrick, 1.0);
+  const double power = std::clamp(std::round(std::log2(bricks)), 0.0, 9.0);
   wither::TexelGrid grid;
   grid.columns = columns;
-  // Levels halve the layers with the columns, down to whole bricks: a power of two of them where it costs little.
-  grid.layers = kBrick * std::clamp(static_cast<int>(std::ceil(bricks)), 1, 4096 / kBrick);
+  grid.layers = kBrick << static_cast<int>(power);
   grid.sideM = sideM;
   grid.heightM = heightM;
   return grid;

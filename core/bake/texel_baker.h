@@ -42,7 +42,7 @@ class TexelBaker {
   std::unique_ptr<Impl> m_impl;
 };
 
-/// The grid of a project's texel: its patch, voxels as nearly cubes as whole bricks allow.
+/// The grid of a project's texel: its patch, voxels as nearly cubes as layers that can be halved to one brick allow.
 wither::TexelGrid texelGridOf(double sideM, double heightM, int columns);
 
 }  // namespace sward::bake

@@ -35,10 +35,6 @@ std::vector<project::Problem> terrainProblems(const project::Project& project) {
   std::vector<project::Problem> problems;
   for (const std::string& warning : made->warnings) problems.push_back({false, "terrain.heightmap", warning, ""});
   if (!made->field) return problems;
-  if (project.render.method == GroundMethod::Texels) {
-    problems.push_back({false, "render.method", "texels are drawn on level ground, whatever the terrain",
-                        "Set render.method to march."});
-  }
   for (std::size_t i = 0; i < project.views.size(); ++i) {
     const glm::dvec3& eye = project.views[i].position;
     const double ground = made->field->height(glm::dvec2(eye));

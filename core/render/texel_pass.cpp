@@ -74,63 +74,6 @@ TexelPass TexelPass::create() {
 
 Result<void> TexelPass::draw(ProgramCache& programs, const TexelSet& texels, const PassInput& input, const Frame& frame,
                              int sample, double weight) {
-  std::vector<std::uint32_t> corners;
-  for (int y = 0; y < frame.height; y += BlockPlan::kBlock) {
-    for (int x = 0; x < frame.width; x += BlockPlan::kBlock) {
-      if (x >= frame.drawn().end || x + BlockPlan::kBlock <= frame.drawn().begin) continue;
-      corners.push_back(static_cast<std::uint32_t>(x) | static_cast<std::uint32_t>(y) << 16);
-    }
-  }
-  return corners;
-}
-
-void bind(gpu::Program& program, const TexelSet& texels, const PassInput& input, const gpu::Texture& blocks) {
-  constexpr std::array<const char*, 8> kSamplers{"t_blocks", "t_map",    "t_sky",    "t_horizon",
-                                                 "t_bricks", "t_voxels", "t_leaves", "t_soil"};
-  // The terrain's begin at 5: those of the texels stand above them.
-  constexpr std::array<int, 8> kUnits{0, 1, 2, 3, 8, 9, 10, 11};
-  for (std::size_t i = 0; i < kSamplers.size(); ++i) setIfUsed(program, kSamplers[i], kUnits[i]);
-  blocks.bind(0);
-  input.map->bind(1);
-  input.sky->bind(2);
-  input.horizon->bind(3);
-  texels.bind(8, 9, 10, 11);
-  if (input.terrain != nullptr) input.terrain->bind(program, *input.mesh);
-}
-
-void setLevels(gpu::Program& program, const TexelSet& set) {
-  std::array<unsigned, kMostLevels> starts{};
-  const std::size_t levels = std::min(set.levelStarts().size(), starts.size());
-  for (std::size_t i = 0; i < levels; ++i) starts[i] = static_cast<unsigned>(set.levelStarts()[i]);
-  const wither::TexelGrid& grid = set.bake().grid();
-  setIfUsed(program, "u_levels", static_cast<int>(levels));
-  if (program.has("u_levelStart")) program.set("u_levelStart", std::span<const unsigned>(starts));
-  setIfUsed(program, "u_columns", grid.columns);
-  setIfUsed(program, "u_layers", grid.layers);
-  setIfUsed(program, "u_densityRange", static_cast<float>(set.densityRange()));
-  setIfUsed(program, "u_radianceRange", static_cast<float>(set.radianceRange()));
-}
-
-void setLight(gpu::Program& program, const PassInput& input, const Frame& frame, double weight) {
-  setIfUsed(program, "u_exposure", static_cast<float>(frame.exposure * weight));
-  setIfUsed(program, "u_hazePerM", static_cast<float>(input.hazePerM));
-  setIfUsed(program, "u_sunDirection", glm::vec3(input.sunDirection));
-  setIfUsed(program, "u_sunIrradiance", glm::vec3(input.sunIrradiance));
-  setIfUsed(program, "u_meanSky", glm::vec3(input.meanSky));
-  setIfUsed(program, "u_sunDisc", glm::vec3(input.sunIrradiance * scene::kSunDiscGain));
-  setIfUsed(program, "u_highlight", kHighlight);
-}
-
-}  // namespace
-
-TexelPass TexelPass::create() {
-  TexelPass pass;
-  pass.m_vertices = gpu::VertexArray::make();
-  return pass;
-}
-
-Result<void> TexelPass::draw(ProgramCache& programs, const TexelPassInput& input, const Frame& frame, int sample,
-                             double weight) {
   std::vector<std::uint32_t> corners = cornersOf(frame);
   if (corners != m_corners) {
     m_blocks = gpu::Buffer(std::as_bytes(std::span(corners)));

@@ -19,6 +19,7 @@ using wither::Voxel;
 constexpr int kBrick = wither::TexelGrid::kBrick;
 constexpr std::size_t kBrickVoxels = std::size_t{kBrick} * kBrick * kBrick;
 constexpr std::size_t kGrain = 4096;
+constexpr std::size_t kFarLevels = 2;  ///< how much coarser what shades from afar may be
 
 /// What OpenGL 4.5 grants every texture buffer is far less; drivers, also Mesa's in software, hold this many texels.
 constexpr std::size_t kMostTexels = std::size_t{1} << 27;
@@ -137,7 +138,9 @@ Result<void> TexelSet::relight(const wither::TexelLight& light, const JobContext
   std::vector<std::uint32_t> soil(m_bake->soil.size());
   for (std::size_t l = 0; l < m_bake->levels.size(); ++l) {
     const auto& level = m_bake->levels[l];
-    SWARD_ASSIGN(const wither::LitTexel lit, wither::lightTexel(*level.texel, level.sky, light, job));
+    const wither::Texel* coarse =
+        l + kFarLevels < m_bake->levels.size() ? m_bake->levels[l + kFarLevels].texel.get() : nullptr;
+    SWARD_ASSIGN(const wither::LitTexel lit, wither::lightTexel(*level.texel, coarse, level.sky, light, job));
     const std::size_t first = leaves.size();
     leaves.resize(first + level.texel->size());
     const std::span<const Voxel> voxels = level.texel->voxels();

@@ -8,6 +8,7 @@
 #include "report/speed_fit.h"
 #include "report/speed_render.h"
 #include "report/speed_sampling.h"
+#include "report/speed_wither.h"
 #include "report/storage.h"
 #include "scene/camera.h"
 #include "trace/patch_scene.h"
@@ -151,6 +152,11 @@ Result<std::vector<Row>> speedRows(const SpeedInput& input, const JobContext& jo
   steps.emplace_back("render_warm", [&](const JobContext& j) { return single(warmRow(input, j)); });
   steps.emplace_back("edit_preview", [&](const JobContext& j) { return editPreviewRows(input, j); });
   steps.emplace_back("storage", [&](const JobContext& j) { return Result<std::vector<Row>>(storageRows(j)); });
+  steps.emplace_back("wither", [&](const JobContext& j) {
+    WitherSpeedSize size;
+    if (input.quick) size.runs = 3;
+    return witherSpeedRows(size, j);
+  });
   std::vector<Row> rows;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (job.cancelled()) return Error::cancelled();

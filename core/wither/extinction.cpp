@@ -57,7 +57,7 @@ Met meet(const Texel& texel, const glm::ivec3& at) {
 
 /// The sum of extinction(voxel) times length along a ray that starts within the grid's height.
 template <typename Extinction>
-double depthAlong(const Texel& texel, const glm::dvec3& from, const glm::dvec3& l, double enough,
+double depthAlong(const Texel& texel, const glm::dvec3& from, const glm::dvec3& l, double enough, double farthestM,
                   const Extinction& extinctionOf) {
   const TexelGrid& grid = texel.grid();
   const glm::dvec3 perM = 1.0 / grid.voxelM();
@@ -69,7 +69,8 @@ double depthAlong(const Texel& texel, const glm::dvec3& from, const glm::dvec3& 
   }
   const double across = std::max(std::abs(l.x), std::abs(l.y));
   const double sides = std::abs(l.z) < kFlat ? kFlatSides : kMostSides;
-  const double farthest = across > 0.0 ? sides * grid.sideM / across : std::numeric_limits<double>::infinity();
+  const double farthest =
+      std::min(farthestM, across > 0.0 ? sides * grid.sideM / across : std::numeric_limits<double>::infinity());
   double depth = 0.0, t = 0.0;
   while (cell.z >= 0.0 && cell.z < grid.layers && t < farthest) {
     const glm::ivec3 at(wrapped(cell.x, grid.columns), wrapped(cell.y, grid.columns), static_cast<int>(cell.z));
@@ -77,7 +78,7 @@ double depthAlong(const Texel& texel, const glm::dvec3& from, const glm::dvec3& 
     const glm::dvec3 low = glm::floor(cell / met.width) * met.width;
     const glm::dvec3 exits(ray.exit(0, low.x, met.width), ray.exit(1, low.y, met.width), ray.exit(2, low.z, met.width));
     const int axis = nearestAxis(exits);
-    const double next = std::max(exits[axis], t);
+    const double next = std::min(std::max(exits[axis], t), farthest);
     if (!(next < std::numeric_limits<double>::infinity())) break;
     if (met.voxel >= 0) {
       depth += extinctionOf(static_cast<std::size_t>(met.voxel)) * (next - t);
@@ -112,11 +113,11 @@ glm::dvec3 inBlock(const TexelGrid& grid, const glm::dvec3& at) {
 }
 
 template <typename Extinction>
-double depthFrom(const Texel& texel, const glm::dvec3& origin, const glm::dvec3& l, double enough,
+double depthFrom(const Texel& texel, const glm::dvec3& origin, const glm::dvec3& l, double enough, double farthestM,
                  const Extinction& extinctionOf) {
   if (texel.empty()) return 0.0;
   const auto from = entered(texel.grid(), origin, l);
-  return from ? depthAlong(texel, inBlock(texel.grid(), *from), l, enough, extinctionOf) : 0.0;
+  return from ? depthAlong(texel, inBlock(texel.grid(), *from), l, enough, farthestM, extinctionOf) : 0.0;
 }
 
 }  // namespace
@@ -153,13 +154,14 @@ Result<TexelExtinction> TexelExtinction::create(const Texel& texel, const glm::d
 }
 
 double opticalDepth(const Texel& texel, const glm::dvec3& origin, const glm::dvec3& direction, double enough) {
-  return depthFrom(texel, origin, direction, enough,
+  return depthFrom(texel, origin, direction, enough, std::numeric_limits<double>::infinity(),
                    [&](std::size_t voxel) { return extinction(texel.voxels()[voxel], direction); });
 }
 
 double opticalDepth(const Texel& texel, const TexelExtinction& medium, const glm::dvec3& origin,
-                    const glm::dvec3& direction, double enough) {
-  return depthFrom(texel, origin, direction, enough, [&](std::size_t voxel) { return double{medium[voxel]}; });
+                    const glm::dvec3& direction, double enough, double farthestM) {
+  return depthFrom(texel, origin, direction, enough, farthestM,
+                   [&](std::size_t voxel) { return double{medium[voxel]}; });
 }
 
 double transmittance(const Texel& texel, const glm::dvec3& origin, const glm::dvec3& direction) {

@@ -43,9 +43,10 @@ double normalShare(const Voxel& voxel);
 /// under 1e-6 end after 64 sides, all others after 4096.
 double opticalDepth(const Texel& texel, const glm::dvec3& origin, const glm::dvec3& direction,
                     double enough = std::numeric_limits<double>::infinity());
-/// The same with the extinctions toward `direction` at hand.
+/// The same with the extinctions toward `direction` at hand, and no farther than `farthestM`.
 double opticalDepth(const Texel& texel, const TexelExtinction& medium, const glm::dvec3& origin,
-                    const glm::dvec3& direction, double enough = std::numeric_limits<double>::infinity());
+                    const glm::dvec3& direction, double enough = std::numeric_limits<double>::infinity(),
+                    double farthestM = std::numeric_limits<double>::infinity());
 /// exp(-opticalDepth), in [0, 1].
 double transmittance(const Texel& texel, const glm::dvec3& origin, const glm::dvec3& direction);
 

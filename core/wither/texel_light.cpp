@@ -11,8 +11,8 @@
 namespace sward::wither {
 namespace {
 
-/// A depth of 12 leaves 6e-6 of the light: nothing that a picture of 8 or 16 bits shows.
-constexpr double kEnoughDepth = 12.0;
+/// A depth of 8 leaves 3e-4 of the light: under half a step of the ten bits that a renderer keeps of its root.
+constexpr double kEnoughDepth = 8.0;
 constexpr std::size_t kGrain = 512;
 constexpr int kRings = 3, kPerRing = 5;
 constexpr int kSkyDirections = kRings * kPerRing;
@@ -46,6 +46,35 @@ double transmitted(const Texel& texel, const TexelExtinction& medium, const glm:
                    double leadM) {
   return std::exp(-opticalDepth(texel, medium, from + leadM * l, l, kEnoughDepth));
 }
+
+/// A texel and, for what is far, a coarse level of it, toward one light.
+class SunMarch {
+ public:
+  static Result<SunMarch> create(const Texel& texel, const Texel* coarse, const glm::dvec3& l, const JobContext& job) {
+    SunMarch march(texel, coarse, l);
+    SWARD_ASSIGN(march.m_fine, TexelExtinction::create(texel, l, job));
+    if (coarse != nullptr) {
+      SWARD_ASSIGN(march.m_far, TexelExtinction::create(*coarse, l, job));
+    }
+    return march;
+  }
+  double transmitted(const glm::dvec3& from, double leadM) const {
+    const glm::dvec3 start = from + leadM * m_l;
+    if (m_coarse == nullptr) return std::exp(-opticalDepth(*m_texel, m_fine, start, m_l, kEnoughDepth));
+    const double near = opticalDepth(*m_texel, m_fine, start, m_l, kEnoughDepth, m_nearM);
+    const glm::dvec3 beyond = start + m_nearM * m_l;
+    if (near >= kEnoughDepth || beyond.z >= m_texel->grid().heightM) return std::exp(-near);
+    return std::exp(-near - opticalDepth(*m_coarse, m_far, beyond, m_l, kEnoughDepth - near));
+  }
+
+ private:
+  SunMarch(const Texel& texel, const Texel* coarse, const glm::dvec3& l)
+      : m_texel(&texel), m_coarse(coarse), m_l(l), m_nearM(kNearVoxels * texel.grid().voxelM().x) {}
+  const Texel *m_texel, *m_coarse;
+  glm::dvec3 m_l;
+  double m_nearM;
+  TexelExtinction m_fine, m_far;
+};
 
 /// A voxel's part of leaves that have its normal, and the irradiance that a unit beam from l gives its two sides.
 struct Facing {
@@ -137,7 +166,8 @@ Result<TexelSky> finerSky(const Texel& texel, const Texel& coarse, const TexelSk
   return sky;
 }
 
-Result<LitTexel> lightTexel(const Texel& texel, const TexelSky& sky, const TexelLight& light, const JobContext& job) {
+Result<LitTexel> lightTexel(const Texel& texel, const Texel* coarse, const TexelSky& sky, const TexelLight& light,
+                            const JobContext& job) {
   const TexelGrid& grid = texel.grid();
   const std::span<const Voxel> voxels = texel.voxels();
   const std::span<const glm::u16vec3> places = texel.places();
@@ -147,11 +177,11 @@ Result<LitTexel> lightTexel(const Texel& texel, const TexelSky& sky, const Texel
   lit.groundSun.assign(columns * columns, 0.0f);
   const bool sunUp = light.toSun.z > 0.0;
   const double lead = leadOf(grid, light.toSun);
-  SWARD_ASSIGN(const TexelExtinction medium, TexelExtinction::create(texel, light.toSun, job));
+  SWARD_ASSIGN(const SunMarch march, SunMarch::create(texel, coarse, light.toSun, job));
   base::parallelFor(job, voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Voxel& voxel = voxels[i];
-      const double through = sunUp ? transmitted(texel, medium, centreOf(grid, places[i]), light.toSun, lead) : 0.0;
+      const double through = sunUp ? march.transmitted(centreOf(grid, places[i]), lead) : 0.0;
       const Facing sides = facing(voxel.normal, normalShare(voxel), light.toSun);
       const glm::dvec3 sun = light.sunIrradiance * (through / std::numbers::pi);
       // Irradiance over pi of either side; skyRadiance times the share of the sky that a side sees.
@@ -168,7 +198,7 @@ Result<LitTexel> lightTexel(const Texel& texel, const TexelSky& sky, const Texel
         for (std::size_t x = 0; x < columns; ++x) {
           const glm::dvec3 foot((static_cast<double>(x) + 0.5) * grid.voxelM().x,
                                 (static_cast<double>(y) + 0.5) * grid.voxelM().y, 0.0);
-          lit.groundSun[y * columns + x] = static_cast<float>(transmitted(texel, medium, foot, light.toSun, 0.0));
+          lit.groundSun[y * columns + x] = static_cast<float>(march.transmitted(foot, 0.0));
         }
       }
     });

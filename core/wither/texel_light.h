@@ -43,8 +43,11 @@ struct LitTexel {
   std::vector<float> groundSun;  ///< transmittance from the ground toward the sun, [y][x]
 };
 /// Marches every voxel and column toward the sun: the voxel's own leaf does not shade it, the march starts one voxel
-/// out. Errors: Error::cancelled().
-Result<LitTexel> lightTexel(const Texel& texel, const TexelSky& sky, const TexelLight& light, const JobContext& job);
+/// out. `coarse`, a level of the same texel or null, serves from kNearVoxels on: what hides the sun from farther away
+/// is known by its opacity, which levels keep. Errors: Error::cancelled().
+Result<LitTexel> lightTexel(const Texel& texel, const Texel* coarse, const TexelSky& sky, const TexelLight& light,
+                            const JobContext& job);
+inline constexpr double kNearVoxels = 12.0;
 
 /// Strength of a highlight of hair (Kajiya and Kay 1989), 0 to 1: the light is reflected into a cone about the tangent.
 /// `toEye` and `toLight` unit; 0 for a zero tangent.

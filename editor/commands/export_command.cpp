@@ -1,21 +1,53 @@
 #include "commands.h"
 
+#include "bake/texel_baker.h"
 #include "export/plants.h"
+#include "export/vdb.h"
+
+#include <array>
+#include <cstdio>
+#include <system_error>
 
 namespace sward::editor {
 namespace {
 
 struct ExportRequest {
   std::string project, folder;
+  bool texels = false;
+  int frames = 1;
 };
+
+/// The texel of a project as NAME.vdb, or key frames of its autumn from 0 to 1 as NAME.0001.vdb and so on.
+Result<std::vector<std::filesystem::path>> exportTexels(const ExportRequest& request, project::Project project,
+                                                        const JobContext& job) {
+  std::error_code code;
+  std::filesystem::create_directories(request.folder, code);
+  if (code) return Error::failed("the folder cannot be made: " + code.message(), request.folder);
+  const std::string name = std::filesystem::path(request.project).stem().string();
+  bake::TexelBaker baker;
+  std::vector<std::filesystem::path> files;
+  for (int frame = 1; frame <= request.frames; ++frame) {
+    if (request.frames > 1) project.wither.weathering = (frame - 1.0) / (request.frames - 1.0);
+    SWARD_ASSIGN(const auto texels, baker.texels(project, job));
+    std::array<char, 16> number{};
+    if (request.frames > 1) std::snprintf(number.data(), number.size(), ".%04d", frame);
+    files.push_back(std::filesystem::path(request.folder) / (name + number.data() + ".vdb"));
+    SWARD_TRY(exporting::writeVdb(*texels->levels.front().texel, files.back()));
+  }
+  return files;
+}
 
 Result<int> runExport(Program& program, const ExportRequest& request) {
   SWARD_ASSIGN(const project::Project project, loadProject(program, request.project));
   SWARD_TRY(checkProject(program, project));
+  if (request.frames > 1 && !request.texels) {
+    return Error::badInput("--frames is for texels", "--frames", "Add --texels, or leave it out.");
+  }
   std::vector<std::filesystem::path> files;
   {
     ProgressBar bar(program);
-    SWARD_ASSIGN(files, exporting::exportPlants(project, request.folder, bar.job()));
+    SWARD_ASSIGN(files, request.texels ? exportTexels(request, project, bar.job())
+                                       : exporting::exportPlants(project, request.folder, bar.job()));
   }
   Json list = Json::array();
   for (const auto& file : files) {
@@ -30,14 +62,22 @@ Result<int> runExport(Program& program, const ExportRequest& request) {
 }  // namespace
 
 void addExportCommand(CLI::App& app, Program& program) {
-  CLI::App* command = addCommand(app, program, "export", "Write the plants of a project as binary glTF",
-                                 "One .glb a plant and variant, y up, metres, colours in vertices and textures.\n\n"
-                                 "Example:\n  sward export meadow.sward -o plants");
+  CLI::App* command =
+      addCommand(app, program, "export", "Write the plants or the texels of a project for other programs",
+                 "Plants: one .glb a plant and variant, y up, metres, colours in vertices and textures.\n"
+                 "Texels: the project's voxels as OpenVDB, z up, metres, with the grids density, Cd,\n"
+                 "normal, tangent and others; Blender and Houdini open them.\n\n"
+                 "Examples:\n  sward export meadow.sward -o plants\n"
+                 "  sward export autumn.sward -o voxels --texels --frames 10");
   const auto request = std::make_shared<ExportRequest>();
   command->add_option("PROJECT", request->project, "The project, a .sward file")->required();
   command->add_option("-o,--output", request->folder, "Folder to write to; made when needed")
       ->required()
       ->type_name("DIR");
+  command->add_flag("--texels", request->texels, "Write the texel at the project's weathering degree as .vdb");
+  command->add_option("--frames", request->frames, "With --texels: this many files from green (0) to straw (1)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 9999));
   command->callback(
       [&program, request] { program.run = [&program, request] { return runExport(program, *request); }; });
 }

@@ -8,7 +8,9 @@
 #include "report/section_quantisation.h"
 #include "report/section_relight.h"
 #include "report/section_stability.h"
+#include "report/section_texel_lod.h"
 #include "report/section_tiles.h"
+#include "report/section_wither.h"
 #include "report/speed.h"
 
 #include <algorithm>
@@ -88,6 +90,10 @@ std::vector<SectionEntry> reportSections(const Program& program, const std::stri
       {"grassland", "drawing methods against the ray-traced meadow, and what each step costs", report::grasslandSection,
        80.0},
       {"leaf_colour", "leaves that age: two models against measured leaves", report::leafColourSection, 3.0},
+      {"wither", "texels of withering blades against bent meshes, and what their steps cost",
+       [](const SectionInput& input, const JobContext& job) { return report::witherSection(input, job); }, 8.0},
+      {"texel_lod", "what levels of detail of texels let through, against traced rays",
+       [](const SectionInput& input, const JobContext& job) { return report::texelLodSection(input, job); }, 8.0},
       {"stability", "fits of degenerate input against a long-double oracle", report::stabilitySection, 3.0},
   };
 }

@@ -87,7 +87,6 @@ void shade(uint index, vec3 d, float lengthM) {
 void marchVoxels(vec3 p, vec3 d, vec3 dv, float tEnd, int level, int columns, int layers) {
   int start = int(u_levelStart[level]);
   int row = columns / kBrick;
-  ivec3 bricks = ivec3(row, row, layers / kBrick);
   vec3 inverse = 1.0 / dv;
   vec3 ahead = step(0.0, dv);
   // Just over a face that was met, so that the next cell is found whatever rounding did.
@@ -96,9 +95,9 @@ void marchVoxels(vec3 p, vec3 d, vec3 dv, float tEnd, int level, int columns, in
   for (int i = 0; i < kMaxVoxels && t < tEnd && g_left > kTransmittanceEnd; ++i) {
     vec3 cell = floor(p + dv * (t + nudge));
     ivec3 at = ivec3(cell);
+    if (at.z < 0 || at.z >= layers) break;  // a shifted ray is out of the block a little early
     ivec3 brick = at >> 3;
-    brick.xy -= bricks.xy * ivec2(floor(vec2(brick.xy) / float(row)));
-    brick.z = clamp(brick.z, 0, bricks.z - 1);
+    brick.xy -= row * ivec2(floor(vec2(brick.xy) / float(row)));
     int first = texelFetch(t_bricks, start + (brick.z * row + brick.y) * row + brick.x).r;
     vec3 exits;
     if (first < 0) {

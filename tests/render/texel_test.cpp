@@ -1,0 +1,135 @@
+#include "render/fixture.h"
+
+#include "wither/extinction.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sward {
+namespace {
+
+using testing::frameOf;
+using testing::makeStage;
+
+/// Level leaves in one layer of a block of 1 m, over white soil.
+std::shared_ptr<const bake::GroundBake> layerOf(int layer, float density, glm::vec3 colour) {
+  std::vector<wither::Texel::Entry> entries;
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 16; ++x) {
+      wither::Voxel voxel;
+      voxel.density = density;
+      voxel.normal = {0.0f, 0.0f, 1.0f};
+      voxel.diffuse = colour;
+      voxel.spread[5] = density;
+      if (density > 0.0f) entries.push_back({{x, y, layer}, voxel});
+    }
+  auto texels = std::make_shared<bake::TexelBake>();
+  auto texel =
+      std::make_shared<const wither::Texel>(wither::Texel::fromEntries({16, 16, 1.0, 1.0}, std::move(entries)).value());
+  texels->levels.push_back({texel, wither::marchedSky(*texel, {}).value()});
+  texels->soil.assign(256, glm::vec3(0.5f));
+  auto ground = std::make_shared<bake::GroundBake>();
+  ground->patchSideM = ground->heightM = 1.0;
+  ground->tiles.resolution = ground->tiles.patchResolution = 1;
+  ground->map.width = ground->map.height = 8;
+  ground->map.tiles.assign(64, 0);
+  ground->texels = std::move(texels);
+  return ground;
+}
+
+render::Frame downFrame(int samples) {
+  render::Frame frame = frameOf({0.3, 0.2, 6.0}, {0.3, 0.21, 0.0}, 64, 48, samples, 200.0);
+  frame.options.method = render::GroundMethod::Texels;
+  return frame;
+}
+
+glm::dvec3 meanOf(const image::Image& picture) {
+  glm::dvec3 sum(0.0);
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) sum += glm::dvec3(picture.rgb(x, y));
+  return sum / static_cast<double>(picture.width * picture.height);
+}
+
+TEST(Texels, BareSoilShowsItsIrradiance) {
+  auto stage = makeStage();
+  const scene::Daylight daylight = testing::daylightAt(200.0, 50.0);
+  stage.renderer->setDaylight(daylight, 0.0);
+  ASSERT_TRUE(stage.renderer->setGround(layerOf(3, 0.0f, glm::vec3(0.0f))).ok());
+  const glm::dvec3 seen = meanOf(stage.renderer->drawLinear(downFrame(4)).value());
+  const glm::dvec3 lit =
+      daylight.sunIrradiance() * (daylight.sunDirection().z / std::numbers::pi) + daylight.meanSkyRadiance();
+  // Ten bits of a square root: half a step is 1 / 1023 of it, twice that of the value where it is largest.
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], 0.5 * lit[c], 0.004 * lit[c]);
+}
+
+TEST(Texels, ALayerHidesAndShadesTheSoilByBeersLaw) {
+  auto stage = makeStage();
+  const scene::Daylight daylight = testing::daylightAt(0.0, 90.0);
+  stage.renderer->setDaylight(daylight, 0.0);
+  const double depth = 1.2;
+  ASSERT_TRUE(stage.renderer->setGround(layerOf(7, static_cast<float>(16.0 * depth), glm::vec3(0.0f))).ok());
+  const glm::dvec3 seen = meanOf(stage.renderer->drawLinear(downFrame(16)).value());
+  // Black leaves: the soil, lit by the sun through the layer and by what the sky sends through it, seen through it.
+  const wither::Texel texel = *layerOf(7, static_cast<float>(16.0 * depth), glm::vec3(0.0f))->texels->levels[0].texel;
+  const double sky = wither::marchedSky(texel, {}).value().ground.front();
+  const glm::dvec3 lit =
+      daylight.sunIrradiance() * (std::exp(-depth) / std::numbers::pi) + daylight.meanSkyRadiance() * sky;
+  // Density in 8 bits of a square root, a fitted exponential (1 %), a lens of some degrees.
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c] / (0.5 * lit[c] * std::exp(-depth)), 1.0, 0.03);
+}
+
+TEST(Texels, OpaqueLeavesShowTheirLitSide) {
+  auto stage = makeStage();
+  const scene::Daylight daylight = testing::daylightAt(120.0, 60.0);
+  stage.renderer->setDaylight(daylight, 0.0);
+  const glm::vec3 green(0.2f, 0.4f, 0.1f);
+  const auto ground = layerOf(12, 16.0f * 30.0f, green);
+  ASSERT_TRUE(stage.renderer->setGround(ground).ok());
+  const glm::dvec3 seen = meanOf(stage.renderer->drawLinear(downFrame(4)).value());
+  // Of the sky a leaf in the layer sees what the leaves beside it leave over.
+  const double sky = static_cast<double>(ground->texels->levels[0].sky.front.front());
+  const glm::dvec3 lit =
+      daylight.sunIrradiance() * (daylight.sunDirection().z / std::numbers::pi) + daylight.meanSkyRadiance() * sky;
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c] / (double{green[c]} * lit[c]), 1.0, 0.02);
+}
+
+/// Every direction of view is drawn without holes: neither NaN nor black, nor sky where ground must be.
+TEST(Texels, CoverTheGroundFromEverySide) {
+  auto stage = makeStage();
+  stage.renderer->setDaylight(testing::daylightAt(30.0, 40.0), 5.0);
+  ASSERT_TRUE(stage.renderer->setGround(layerOf(4, 16.0f * 30.0f, glm::vec3(1.0f, 0.0f, 0.0f))).ok());
+  for (int turn = 0; turn < 8; ++turn) {
+    for (const double height : {0.1, 0.6, 1.5, 30.0}) {
+      const double azimuth = turn * std::numbers::pi / 4.0;
+      render::Frame frame =
+          frameOf({0.0, 0.0, height}, {3.0 * std::cos(azimuth), 3.0 * std::sin(azimuth), -8.0}, 40, 30, 2);
+      frame.options.method = render::GroundMethod::Texels;
+      const image::Image picture = stage.renderer->drawLinear(frame).value();
+      for (const float value : picture.pixels) ASSERT_TRUE(std::isfinite(value));
+      if (height < 0.6) continue;
+      const glm::dvec3 mean = meanOf(picture);
+      EXPECT_GT(mean.r, 10.0 * std::max(mean.g, 1e-9)) << "turn " << turn << ", from " << height;
+    }
+  }
+}
+
+TEST(Texels, SaySoWhenTheyAreAskedForWhatOnlyLayersHave) {
+  auto stage = makeStage();
+  stage.renderer->setDaylight(testing::daylightAt(30.0, 40.0), 5.0);
+  ASSERT_TRUE(stage.renderer->setGround(layerOf(4, 10.0f, glm::vec3(0.3f))).ok());
+  render::Frame frame = downFrame(1);
+  frame.mode.quantity = render::ViewQuantity::Coverage;
+  EXPECT_FALSE(stage.renderer->drawLinear(frame).ok());
+  render::Frame layers = downFrame(1);
+  layers.options.method = render::GroundMethod::March;
+  EXPECT_FALSE(stage.renderer->drawLinear(layers).ok());
+  ASSERT_TRUE(stage.renderer->setGround(testing::makeGround(testing::smallOptions())).ok());
+  EXPECT_FALSE(stage.renderer->drawLinear(downFrame(1)).ok());
+  EXPECT_TRUE(stage.renderer->drawLinear(layers).ok());
+}
+
+}  // namespace
+}  // namespace sward

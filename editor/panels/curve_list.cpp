@@ -110,9 +110,9 @@ std::vector<CurveEntry> curvesOf(const project::Project& project) {
   const CurveVisitor::Visit visit = [&](const std::string& path, base::Curve& curve, const project::Spec& spec) {
     const std::string owner = ownerOf(path);
     CurveEntry entry{path, owner, labelOf(project, path, spec), spec, curve, builtInOf(project, path, owner)};
-    // Own curves rest while the autumn is another one.
+    // Own curves rest while the autumn is another one, whose points can be taken hold of all the same.
     const bool ofAutumn = path == kWater || path == kChlorophyll;
-    if (ofAutumn && project.wither.ageing.autumn != wither::Autumn::Custom) entry.curve = {};
+    if (ofAutumn && project.wither.ageing.autumn != wither::Autumn::Custom) entry.curve = entry.builtIn;
     curves.push_back(std::move(entry));
   };
   CurveVisitor visitor("", visit);

@@ -15,7 +15,7 @@ struct CurveEntry {
   std::string owner;  ///< what it is shown with: a plant's path, "patch.plants[0]", or "wither"
   std::string label;  ///< the schema's, or the name of the sample that ages by it
   project::Spec spec;
-  base::Curve curve;  ///< empty: the built-in one is in use
+  base::Curve curve;  ///< empty: the built-in one is in use; of water and chlorophyll the autumn's
   /// What holds while `curve` is empty, such as an autumn's water; empty where nothing is built in.
   base::Curve builtIn;
 };

@@ -1,5 +1,6 @@
 #include "panels/curve_panel.h"
 
+#include "panels/season_panel.h"
 #include "widgets/item_log.h"
 #include "widgets/parts.h"
 #include "widgets/theme.h"
@@ -39,7 +40,7 @@ bool sameAxes(const project::Spec& a, const project::Spec& b) {
 
 std::vector<CurvePreset> presetsFor(const CurveEntry& entry) {
   const project::Spec& spec = entry.spec;
-  std::vector<CurvePreset> presets{{"Built in", {}}};
+  std::vector<CurvePreset> presets;
   const bool water = entry.path == "wither.ageing.water";
   if (water || entry.path == "wither.ageing.chlorophyll") {
     for (const auto& autumn : project::words(wither::Autumn{})) {
@@ -48,6 +49,8 @@ std::vector<CurvePreset> presetsFor(const CurveEntry& entry) {
       ageing.autumn = autumn.value;
       presets.push_back({autumn.label, water ? wither::waterCurve(ageing) : wither::chlorophyllCurve(ageing)});
     }
+  } else {
+    presets.push_back({"Built in", {}});
   }
   for (const base::CurvePreset& preset : base::curvePresets())
     presets.push_back({preset.name, base::presetCurve(preset, spec.xLow, spec.xHigh, spec.low, spec.high)});
@@ -94,6 +97,7 @@ void CurvePanel::draw(PanelContext& context) {
     layer.name = curves[i].label;
     layer.curve = &curves[i].curve;
     layer.builtIn = &curves[i].builtIn;
+    layer.colour = seasonColour(curves[i].path);
     layers.push_back(layer);
     places.push_back(i);
   }

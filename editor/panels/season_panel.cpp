@@ -1,8 +1,10 @@
 #include "panels/season_panel.h"
 
 #include "panels/view_edits.h"
+#include "widgets/field_look.h"
 #include "widgets/icons.h"
 #include "widgets/item_log.h"
+#include "widgets/number_field.h"
 #include "widgets/parts.h"
 #include "widgets/theme.h"
 
@@ -28,14 +30,14 @@ struct Line {
 };
 
 std::array<Line, 3> linesOf(const wither::AgeingOptions& ageing) {
-  const Palette& c = theme().colours;
-  return {{{"Water", wither::waterCurve(ageing), c.info},
-           {"Chlorophyll", wither::chlorophyllCurve(ageing), c.accent},
-           {"Weathering", ageing.weathering, c.sun}}};
+  return {{{"Water", wither::waterCurve(ageing), seasonColour("wither.ageing.water")},
+           {"Chlorophyll", wither::chlorophyllCurve(ageing), seasonColour("wither.ageing.chlorophyll")},
+           {"Weathering", ageing.weathering, seasonColour("wither.ageing.weathering")}}};
 }
 
-/// Names and values at a moment, in the plot's upper right corner; `right` and `top` are where it ends and begins.
-void drawLegend(const std::array<Line, 3>& lines, double moment, float right, float top) {
+/// Names and values at a moment, half way up the plot between `min` and `max`, where the curves of most autumns leave
+/// room, on the side that the head is not on.
+void drawLegend(const std::array<Line, 3>& lines, double moment, ImVec2 min, ImVec2 max) {
   const Palette& c = theme().colours;
   const FontScope font(theme().fonts.small);
   ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -48,17 +50,26 @@ void drawLegend(const std::array<Line, 3>& lines, double moment, float right, fl
     width = std::max(width, ImGui::CalcTextSize(text.data()).x);
   }
   const float line = ImGui::GetTextLineHeight() + px(3.0f);
-  const float left = right - width - px(26.0f);
-  draw->AddRectFilled({left, top}, {right, top + line * 3.0f + px(6.0f)}, faded(c.panel, 0.85f), px(4.0f));
+  const ImVec2 size{width + px(28.0f), 3.0f * line + px(6.0f)};
+  const float left = moment > 0.35 ? min.x + px(8.0f) : max.x - px(8.0f) - size.x;
+  const float top = 0.5f * (min.y + max.y - size.y);
+  draw->AddRectFilled({left, top}, {left + size.x, top + size.y}, faded(c.panel, 0.85f), px(4.0f));
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const float y = top + px(4.0f) + line * static_cast<float>(i);
-    draw->AddRectFilled({left + px(6.0f), y + 0.5f * line - px(3.0f)}, {left + px(16.0f), y + 0.5f * line},
-                        lines[i].colour);
+    const float middle = y + 0.5f * ImGui::GetTextLineHeight();
+    draw->AddRectFilled({left + px(6.0f), middle - px(1.5f)}, {left + px(16.0f), middle + px(1.5f)}, lines[i].colour);
     draw->AddText({left + px(21.0f), y}, c.text, texts[i].c_str());
   }
 }
 
 }  // namespace
+
+std::uint32_t seasonColour(std::string_view path) {
+  const Palette& c = theme().colours;
+  if (path == "wither.ageing.water") return c.info;
+  if (path == "wither.ageing.chlorophyll") return c.accent;
+  return path == "wither.ageing.weathering" ? c.sun : 0;
+}
 
 double weatheringAt(const wither::AgeingOptions& ageing, double season) {
   const double at = std::clamp(season, 0.0, 1.0);
@@ -150,11 +161,10 @@ void SeasonPanel::playControls(PanelContext& context) {
   ImGui::SameLine(0.0f, px(4.0f));
   if (toolToggle("season.loop", icon::kRefresh, play.loop, "Begin again at the end")) play.loop = !play.loop;
   ImGui::SameLine(0.0f, px(10.0f));
-  ImGui::SetNextItemWidth(px(96.0f));
-  auto seconds = static_cast<float>(play.seconds);
-  if (ImGui::SliderFloat("##seconds", &seconds, static_cast<float>(kLeastSeconds), static_cast<float>(kMostSeconds),
-                         "%.0f s", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
-    play.seconds = seconds;
+  NumberStyle style = fieldLook("seconds", project::range(kLeastSeconds, kMostSeconds, "s"), play.seconds).number;
+  style.caption = "Plays";
+  style.logarithmic = true;
+  numberField("seconds", play.seconds, style, px(110.0f));
   logItem("season.seconds");
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("How long a whole season plays");
 }
@@ -162,13 +172,14 @@ void SeasonPanel::playControls(PanelContext& context) {
 void SeasonPanel::degree(PanelContext& context) {
   const SeasonPlay& play = context.ui.season;
   const double shown = play.at ? play.weathering : context.project->wither.weathering;
-  auto value = static_cast<float>(100.0 * shown);
-  const float least = px(120.0f);
-  ImGui::SetNextItemWidth(std::clamp(ImGui::GetContentRegionAvail().x - px(110.0f), least, px(260.0f)));
-  if (ImGui::SliderFloat("##degree", &value, 0.0f, 100.0f, "Weathering %.0f %%", ImGuiSliderFlags_AlwaysClamp))
-    set(context, 0.01 * value);
+  double value = shown;
+  NumberStyle style = fieldLook("weathering", project::percent(0.0, 1.0), shown).number;
+  style.caption = "Weathering";
+  const float width = std::clamp(ImGui::GetContentRegionAvail().x - px(64.0f), px(120.0f), px(260.0f));
+  const EditState edited = numberField("degree", value, style, width);
+  if (edited.changed) set(context, value);
   if (ImGui::IsItemActive()) context.ui.inputActive = true;
-  if (ImGui::IsItemDeactivatedAfterEdit()) release(context);
+  if (edited.finished) release(context);
   logItem("season.degree");
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip("%s", play.at ? "What is shown; moving it sets the project's weathering degree"
@@ -236,9 +247,7 @@ void SeasonPanel::timeline(PanelContext& context) {
   const double moment = shownMoment(context.ui, *context.project);
   draw->AddLine({x(moment), origin.y}, {x(moment), origin.y + base}, colours.text, px(1.5f));
   for (const Line& line : lines) draw->AddCircleFilled({x(moment), y(line.at(moment))}, px(4.0f), line.colour);
-  // The legend keeps out of the head's way.
-  const bool atRight = moment < 0.7;
-  drawLegend(lines, moment, atRight ? origin.x + size.x - px(8.0f) : origin.x + px(150.0f), origin.y + px(8.0f));
+  drawLegend(lines, moment, origin, {origin.x + size.x, origin.y + base});
   draw->PopClipRect();
   if (ImGui::IsItemActive()) {
     m_dragging = true;

@@ -3,7 +3,9 @@
 #include "panels/panel_context.h"
 #include "wither/season.h"
 
+#include <cstdint>
 #include <optional>
+#include <string_view>
 
 namespace sward::editor {
 
@@ -25,6 +27,8 @@ class SeasonPanel {
   bool m_dragging = false;
 };
 
+/// What the season's curves are drawn in, by their path; 0 for other curves.
+std::uint32_t seasonColour(std::string_view path);
 /// The degree of weathering at a moment of the season, both in [0, 1].
 double weatheringAt(const wither::AgeingOptions& ageing, double season);
 /// The moment that the viewport shows: what plays, else where the project's weathering degree stands.

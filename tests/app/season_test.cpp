@@ -119,9 +119,9 @@ TEST_F(SeasonTest, AWaterPointIsEditedAsOneStepFromTheAutumnsCurve) {
   EXPECT_EQ(ui().activeCurve, "wither.ageing.water");
   EXPECT_EQ(ui().bottomTab, BottomTab::Curves);
   frames(2);
-  show("withering");
   const wither::AgeingOptions before = withering().ageing;
   drag("curve:wither.ageing.water:point:3", {0.0f, 25.0f});
+  show("withering");
   ASSERT_EQ(document().position(), 1U);
   EXPECT_EQ(withering().ageing.autumn, wither::Autumn::Custom);
   EXPECT_EQ(withering().ageing.chlorophyll, wither::chlorophyllCurve(before));
@@ -240,6 +240,7 @@ TEST_F(SeasonTest, LayersOfferToBeDrawnAsTexels) {
   application().edit("layers", [](project::Project& p) { p.render.method = render::GroundMethod::March; }, {});
   click("tab:Season");
   frames(2);
+  show("layers");
   click("season.texels");
   EXPECT_EQ(project().render.method, render::GroundMethod::Texels);
   EXPECT_EQ(document().undoName(), "draw as texels");

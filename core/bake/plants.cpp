@@ -13,10 +13,6 @@ int variantCount(const project::Plant& plant) {
   return plant.kind == project::PlantKind::Gltf ? 1 : plant.variants;
 }
 
-int modelCount(const project::Project& project, const project::Plant& plant) {
-  return variantCount(plant) * static_cast<int>(sampleCount(project));
-}
-
 double plantCount(const project::Project& project, std::size_t plant) {
   const project::Patch& patch = project.patch;
   double shares = 0.0;

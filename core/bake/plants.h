@@ -13,15 +13,13 @@ namespace sward::bake {
 
 /// How many different models a plant grows in: its variants when procedural, one from a file.
 int variantCount(const project::Plant& plant);
-/// How many a patch has of it: its variants in every sample of the mingling (bake/withering.h).
-int modelCount(const project::Project& project, const project::Plant& plant);
 
 /// Model `variant` of plant `plant` of the project as it grew: procedural, or read from its glTF file. Procedural seeds
 /// come from the patch's seed, the plant's place in the list and the variant.
 Result<mesh::Model> plantModel(const project::Project& project, std::size_t plant, int variant);
 
-/// Model `index` of modelCount, as it stands on the patch: variant index % variants, withered as sample index /
-/// variants is.
+/// A plant as it stands on the patch, which has its variants once in every sample of the mingling: variant index %
+/// variants, withered as sample index / variants is (bake/withering.h).
 Result<mesh::Model> patchModel(const project::Project& project, std::size_t plant, int index);
 
 /// Gives model `index` of a plant: patchModel, or what is remembered of it.

@@ -6,7 +6,6 @@
 #include "bake/soil.h"
 #include "bake/withering.h"
 #include "project/value_hash.h"
-#include "wither/extinction.h"
 #include "wither/points.h"
 #include "wither/pose.h"
 #include "wither/texel_lod.h"

@@ -1,6 +1,7 @@
 #include "export/plants.h"
 
 #include "bake/plants.h"
+#include "export/folder.h"
 #include "mesh/gltf_write.h"
 
 #include <cctype>
@@ -26,12 +27,7 @@ std::string fileNameOf(const std::string& name) {
 
 Result<std::vector<fs::path>> exportPlants(const project::Project& project, const fs::path& folder,
                                            const JobContext& job) {
-  std::error_code code;
-  fs::create_directories(folder, code);
-  if (code || !fs::is_directory(folder)) {
-    return Error::badInput("cannot make the folder" + (code ? ": " + code.message() : std::string()), folder.string(),
-                           "Choose another folder with -o.");
-  }
+  SWARD_TRY(makeFolder(folder));
   std::vector<fs::path> files;
   std::set<std::string> taken;
   for (std::size_t i = 0; i < project.patch.plants.size(); ++i) {

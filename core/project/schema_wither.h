@@ -160,12 +160,6 @@ void describe(A& a, typename A::template Ref<wither::TexelOptions> v) {
               .soft(0.3, 1.2)
               .expert()
               .says("Point size", "Spread of a point when it becomes voxels again; larger is smoother."));
-  a.field(
-      "keyFrameError", v.keyFrameError,
-      percent(0.001, 0.5)
-          .soft(0.005, 0.1)
-          .expert()
-          .says("Key frame error", "Opacity that may be wrong between two key frames; smaller needs more of them."));
 }
 
 template <typename A>

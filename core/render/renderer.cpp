@@ -102,6 +102,7 @@ struct Renderer::Impl {
   TexelPass texelPass;
   std::optional<TexelSet> texels;
   bool texelsLit = false;
+  std::stop_token stop;
   std::shared_ptr<const terrain::HeightField> field;
   std::optional<TerrainPass> terrain;  ///< of the field, where there is one
   std::optional<scene::Daylight> daylight;
@@ -178,7 +179,8 @@ struct Renderer::Impl {
 
   Result<void> lightTexels() {
     if (texelsLit) return {};
-    SWARD_TRY(texels->relight({daylight->sunDirection(), daylight->sunIrradiance(), daylight->meanSkyRadiance()}, {}));
+    const wither::TexelLight light{daylight->sunDirection(), daylight->sunIrradiance(), daylight->meanSkyRadiance()};
+    SWARD_TRY(texels->relight(light, {stop, {}, 0}));
     texelsLit = true;
     return context.checkErrors("lighting the texels");
   }
@@ -335,6 +337,10 @@ void Renderer::setDaylight(const scene::Daylight& daylight, double hazeKm) {
   impl.texelsLit = false;
   if (impl.relit) impl.relit->setIllumination(illuminationOf(daylight));
   if (impl.terrain) impl.terrain->setSun(daylight.sunDirection());
+}
+
+void Renderer::setStop(std::stop_token stop) {
+  m_impl->stop = std::move(stop);
 }
 
 Result<void> Renderer::begin(Drawing& drawing, const Frame& frame) {

@@ -15,6 +15,7 @@
 
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -74,6 +75,9 @@ class Renderer {
   /// Takes a new light; what a picture reads is relit when it is drawn, if the light differs from the last. `hazeKm`:
   /// distance at which aerial perspective hides 63 % (scene::SkyOptions); 0: none.
   void setDaylight(const scene::Daylight& daylight, double hazeKm = 12.0);
+
+  /// Lighting texels takes the processor seconds: a request to stop ends it, and begin(), with Error::cancelled().
+  void setStop(std::stop_token stop);
 
   /// Starts a picture: relights what it reads, clears what was drawn. The samples follow with addSample().
   Result<void> begin(Drawing& drawing, const Frame& frame);

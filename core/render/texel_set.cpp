@@ -21,7 +21,7 @@ constexpr std::size_t kBrickVoxels = std::size_t{kBrick} * kBrick * kBrick;
 constexpr std::size_t kGrain = 4096;
 constexpr std::size_t kFarLevels = 2;  ///< how much coarser what shades from afar may be
 
-/// What OpenGL 4.5 grants every texture buffer is far less; drivers, also Mesa's in software, hold this many texels.
+/// Texels of a texture buffer: what Mesa's software renderer and common GPUs take (OpenGL grants 2^16 alone).
 constexpr std::size_t kMostTexels = std::size_t{1} << 27;
 
 std::uint32_t byteOf(double value) {

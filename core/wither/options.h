@@ -44,7 +44,6 @@ struct TexelOptions {
   int resolution = 256;         ///< voxels along each side and over the height: 8 to 512, a multiple of 8
   double proportion = 6.0;      ///< points for a voxel whose leaf area is that of its face: 0.1 to 100
   double splatVoxels = 0.6;     ///< sigma of the points' Gaussian, in voxels
-  double keyFrameError = 0.02;  ///< largest look difference between key frames, relative to what is covered
   bool operator==(const TexelOptions&) const = default;
 };
 

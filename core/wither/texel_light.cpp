@@ -207,11 +207,4 @@ Result<LitTexel> lightTexel(const Texel& texel, const Texel* coarse, const Texel
   return lit;
 }
 
-float kajiyaKay(const glm::vec3& tangent, const glm::vec3& toEye, const glm::vec3& toLight, float exponent) {
-  if (tangent == glm::vec3(0.0f)) return 0.0f;
-  const float e = glm::dot(tangent, toEye), l = glm::dot(tangent, toLight);
-  const float cone = std::sqrt(std::max(1.0f - e * e, 0.0f)) * std::sqrt(std::max(1.0f - l * l, 0.0f)) - e * l;
-  return std::pow(std::max(cone, 0.0f), exponent);
-}
-
 }  // namespace sward::wither

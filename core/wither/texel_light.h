@@ -49,8 +49,4 @@ Result<LitTexel> lightTexel(const Texel& texel, const Texel* coarse, const Texel
                             const JobContext& job);
 inline constexpr double kNearVoxels = 12.0;
 
-/// Strength of a highlight of hair (Kajiya and Kay 1989), 0 to 1: the light is reflected into a cone about the tangent.
-/// `toEye` and `toLight` unit; 0 for a zero tangent.
-float kajiyaKay(const glm::vec3& tangent, const glm::vec3& toEye, const glm::vec3& toLight, float exponent);
-
 }  // namespace sward::wither

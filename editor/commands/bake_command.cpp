@@ -1,6 +1,7 @@
 #include "commands.h"
 
 #include "choose.h"
+#include "bake/memory_size.h"
 #include "gpu/context.h"
 #include "project/nearest.h"
 
@@ -46,8 +47,7 @@ Result<int> runBake(Program& program, const BakeRequest& request) {
   {
     ProgressBar bar(program);
     SWARD_ASSIGN(const auto ground, baker.ground(project, bar.job(), &report));
-    bytes = ground->slices.totalBytes() + ground->soil.totalBytes();
-    for (const auto& blade : ground->blades) bytes += blade.totalBytes();
+    bytes = bake::memoryBytes(*ground);
   }
   for (const std::string& warning : report.warnings) warn(program, warning);
   say(program, bakeText(report) + "; the ground takes " + bytesText(bytes));

@@ -1,5 +1,7 @@
 #include "choose.h"
 
+#include "bake/withering.h"
+
 namespace sward::editor {
 namespace {
 
@@ -15,6 +17,10 @@ Json candidateJson(const report::Candidate& candidate) {
 Result<std::optional<report::Choice>> chooseBake(const Program& program, project::Project& project,
                                                  const std::vector<scene::View>& views, gpu::Context& context) {
   if (project.accuracy.metric == report::ErrorBound::None) return std::optional<report::Choice>();
+  if (bake::drawnAsTexels(project)) {
+    return Error::badInput("an error bound chooses among layers, and this project is drawn as texels", "accuracy",
+                           "Leave --max-error out, or draw layers: --method march.");
+  }
   std::optional<report::Choice> choice;
   {
     ProgressBar bar(program);

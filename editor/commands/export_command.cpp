@@ -1,12 +1,9 @@
 #include "commands.h"
 
-#include "bake/texel_baker.h"
 #include "export/plants.h"
-#include "export/vdb.h"
+#include "export/texels.h"
 
-#include <array>
-#include <cstdio>
-#include <system_error>
+#include <filesystem>
 
 namespace sward::editor {
 namespace {
@@ -17,26 +14,6 @@ struct ExportRequest {
   int frames = 1;
 };
 
-/// The texel of a project as NAME.vdb, or key frames of its autumn from 0 to 1 as NAME.0001.vdb and so on.
-Result<std::vector<std::filesystem::path>> exportTexels(const ExportRequest& request, project::Project project,
-                                                        const JobContext& job) {
-  std::error_code code;
-  std::filesystem::create_directories(request.folder, code);
-  if (code) return Error::failed("the folder cannot be made: " + code.message(), request.folder);
-  const std::string name = std::filesystem::path(request.project).stem().string();
-  bake::TexelBaker baker;
-  std::vector<std::filesystem::path> files;
-  for (int frame = 1; frame <= request.frames; ++frame) {
-    if (request.frames > 1) project.wither.weathering = (frame - 1.0) / (request.frames - 1.0);
-    SWARD_ASSIGN(const auto texels, baker.texels(project, job));
-    std::array<char, 16> number{};
-    if (request.frames > 1) std::snprintf(number.data(), number.size(), ".%04d", frame);
-    files.push_back(std::filesystem::path(request.folder) / (name + number.data() + ".vdb"));
-    SWARD_TRY(exporting::writeVdb(*texels->levels.front().texel, files.back()));
-  }
-  return files;
-}
-
 Result<int> runExport(Program& program, const ExportRequest& request) {
   SWARD_ASSIGN(const project::Project project, loadProject(program, request.project));
   SWARD_TRY(checkProject(program, project));
@@ -46,8 +23,10 @@ Result<int> runExport(Program& program, const ExportRequest& request) {
   std::vector<std::filesystem::path> files;
   {
     ProgressBar bar(program);
-    SWARD_ASSIGN(files, request.texels ? exportTexels(request, project, bar.job())
-                                       : exporting::exportPlants(project, request.folder, bar.job()));
+    const std::string name = std::filesystem::path(request.project).stem().string();
+    SWARD_ASSIGN(files, request.texels
+                            ? exporting::exportTexels(project, name, request.folder, request.frames, bar.job())
+                            : exporting::exportPlants(project, request.folder, bar.job()));
   }
   Json list = Json::array();
   for (const auto& file : files) {

@@ -136,6 +136,7 @@ Result<image::Image> drawPicture(Program& program, const RenderPlan& plan, gpu::
                                  std::shared_ptr<const bake::GroundBake> ground, RenderTimes& times) {
   StopWatch watch;
   SWARD_ASSIGN(const auto renderer, render::Renderer::create(context));
+  renderer->setStop(program.interrupts.token());
   SWARD_TRY(renderer->setGround(std::move(ground)));
   if (plan.terrain) SWARD_TRY(renderer->setTerrain(plan.terrain));
   times.upload = watch.lap();

@@ -1,6 +1,7 @@
 #include "commands.h"
 #include "report_sections.h"
 
+#include "bake/withering.h"
 #include "gpu/context.h"
 #include "report/writer.h"
 
@@ -135,8 +136,13 @@ Result<int> runReport(Program& program, const ReportRequest& request) {
   SWARD_ASSIGN(const std::vector<SectionEntry> entries,
                chooseSections(reportSections(program, request.project), request.sections));
   SWARD_ASSIGN(const gpu::Device device, gpu::deviceFromName(request.device));
-  SWARD_ASSIGN(const project::Project project, loadProject(program, request.project));
+  SWARD_ASSIGN(project::Project project, loadProject(program, request.project));
   SWARD_TRY(checkProject(program, project));
+  if (bake::drawnAsTexels(project)) {
+    project.render.method = render::GroundMethod::March;
+    warn(program,
+         "the project is drawn as texels; its layers are measured, and sections wither and texel_lod its texels");
+  }
   SWARD_TRY(report::checkReportFolder(request.folder));
   SWARD_ASSIGN(const auto context, gpu::Context::create(device));
   const report::SectionInput input{project, *context, cacheFolder(program), request.quick};

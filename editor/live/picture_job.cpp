@@ -65,6 +65,7 @@ struct PictureJob::Impl {
     SWARD_ASSIGN(const render::Frame frame, render::planFrame(*request.project, request.view, daylight));
     SWARD_ASSIGN(const auto context, gpu::Context::create(request.device));
     SWARD_ASSIGN(const auto renderer, render::Renderer::create(*context));
+    renderer->setStop(stop);
     SWARD_TRY(renderer->setGround(ground));
     SWARD_ASSIGN(const terrain::Terrain terrain, render::terrainOf(*request.project));
     SWARD_TRY(renderer->setTerrain(terrain.field));

@@ -138,6 +138,7 @@ Result<void> ViewPainter::prepare(Bench& bench, const std::shared_ptr<const bake
                                   const std::shared_ptr<const bake::Inspection>& inspection) {
   if (!bench.renderer) {
     SWARD_ASSIGN(bench.renderer, render::Renderer::create(*m_context));
+    bench.renderer->setStop(m_stop);
   }
   if (bench.ground != ground) {
     bench.ground.reset();

@@ -10,6 +10,8 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <stop_token>
+#include <utility>
 
 namespace sward::editor {
 
@@ -17,7 +19,8 @@ namespace sward::editor {
 /// have in common: grounds stay uploaded, light stays lit, textures stay allocated.
 class ViewPainter {
  public:
-  explicit ViewPainter(gpu::Device device) : m_device(device) {}
+  /// `stop`: ends what takes long on the processor, with Error::cancelled().
+  explicit ViewPainter(gpu::Device device, std::stop_token stop = {}) : m_device(device), m_stop(std::move(stop)) {}
   ~ViewPainter();
 
   /// Starts a picture, or goes on with the last one where only its comparison with a given picture changed; and a
@@ -57,6 +60,7 @@ class ViewPainter {
   Result<image::ByteImage> readGiven();
 
   gpu::Device m_device;
+  std::stop_token m_stop;
   std::unique_ptr<gpu::Context> m_context;
   std::array<Bench, 2> m_benches;  ///< the second only for a comparison with another ground
   std::array<Side, 2> m_sides;

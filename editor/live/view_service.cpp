@@ -47,7 +47,7 @@ struct ViewService::Impl {
 
   void run(std::stop_token stop) {
     yieldPriorityOfThisThread();
-    ViewPainter painter(options.device);
+    ViewPainter painter(options.device, stop);
     while (auto request = next(stop)) {
       Result<void> drawn = drawGuarded(painter, *request, stop);
       if (!drawn.ok()) fail(std::move(drawn).error());

@@ -20,7 +20,7 @@ uniform vec3 u_sunIrradiance;
 uniform isamplerBuffer t_bricks;   // of all levels: where a brick's voxels start in t_voxels; -1: empty
 uniform usamplerBuffer t_voxels;   // 512 a brick: index into t_leaves, from 1; 0: empty
 uniform usamplerBuffer t_leaves;   // four words a voxel, render/texel_set.h
-uniform usamplerBuffer t_soil;     // lit soil of the finest level's columns, shared exponents
+uniform usamplerBuffer t_soil;     // lit soil of the finest level's columns, as colour30()
 
 uniform int u_levels;
 uniform uint u_levelStart[8];       // in t_bricks

@@ -126,6 +126,15 @@ INSTANTIATE_TEST_SUITE_P(
                "--set", "lights.sunPath.dates=[{\"month\": 12}]"},
               "never stands higher"},
         Wrong{{"report", "p.sward", "-o", "r", "--section", "sped"}, "Did you mean \"speed\"? Sections: speed"},
+        Wrong{{"render", "p.sward", "-o", "a.png", "--weathering", "1.5"}, "--weathering"},
+        Wrong{{"render", "p.sward", "-o", "a.png", "--weathering", "nan"}, "Give 0 to 1"},
+        Wrong{{"render", "p.sward", "-o", "a.png", "--method", "texels", "--max-error", "rmse=0.1"}, "--method march"},
+        Wrong{{"bake", "p.sward", "--set", "render.method=texels", "--max-error", "rmse=0.1"}, "--method march"},
+        Wrong{{"export", "p.sward", "-o", "v", "--frames", "3"}, "Add --texels"},
+        Wrong{{"export", "p.sward", "-o", "file", "--texels"}, "file"},
+        Wrong{{"check", "p.sward", "--set", "wither.ageing.weathering=[[0,0.5],[1,0.2]]"}, "never go back"},
+        Wrong{{"check", "p.sward", "--set", "wither.texel.resolution=33"}, "multiple of 8"},
+        Wrong{{"check", "p.sward", "--set", "wither.ageing.water=[[0,1],[0,0.5]]"}, "wither.ageing.water"},
         Wrong{{"report", "p.sward", "-o", "file"}, "file"}, Wrong{{"export", "p.sward", "-o", "file"}, "file"},
         Wrong{{"new", "n.sward", "--template", "medow"}, "Did you mean \"meadow\""},
         Wrong{{"new", "n.sward", "--grass", "missing.glb"}, "missing.glb"},
@@ -148,6 +157,36 @@ TEST_F(Cli, RenderDrawsAndAChangedSunBakesNothing) {
   for (const Json& node : again["bake"]["nodes"]) EXPECT_NE(node["state"], "baked");
   EXPECT_EQ(contents(work() / "b.exr").substr(0, 4), std::string("\x76\x2f\x31\x01"));
   EXPECT_THAT(listing(work()), testing::ElementsAre("a.png", "b.exr", "p.sward"));
+}
+
+TEST_F(Cli, RenderWithersLayersAndTexels) {
+  const std::vector<std::string> small{"--size", "64x36", "--spp", "2"};
+  const auto picture = [&](const std::string& file, std::vector<std::string> more) {
+    std::vector<std::string> arguments{"render", "p.sward", "-o", file};
+    arguments.insert(arguments.end(), small.begin(), small.end());
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    return contents(work() / file);
+  };
+  const std::string set = "wither.texel.resolution=32";
+  for (const std::string method : {"march", "texels"}) {
+    const std::string fresh = picture("a.png", {"--method", method, "--set", set});
+    EXPECT_NE(picture("b.png", {"--method", method, "--set", set, "--weathering", "0.9"}), fresh) << method;
+    EXPECT_EQ(picture("c.png", {"--method", method, "--set", set, "--weathering", "0"}), fresh) << method;
+  }
+  // Nothing grows: the soil alone.
+  picture("bare.png", {"--method", "texels", "--set", set, "--set", "patch.plants=[]"});
+}
+
+TEST_F(Cli, ExportWritesTexelsAndFramesOfAnAutumn) {
+  const std::string set = "wither.texel.resolution=32";
+  const Outcome one = run({"export", "p.sward", "-o", "one", "--texels", "--set", set});
+  ASSERT_EQ(one.exitCode, 0) << one.err;
+  EXPECT_THAT(listing(work() / "one"), testing::ElementsAre("p.vdb"));
+  const Outcome three = run({"export", "p.sward", "-o", "three", "--texels", "--frames", "3", "--set", set});
+  ASSERT_EQ(three.exitCode, 0) << three.err;
+  EXPECT_THAT(listing(work() / "three"), testing::ElementsAre("p.0001.vdb", "p.0002.vdb", "p.0003.vdb"));
 }
 
 TEST_F(Cli, QuietSaysNothing) {

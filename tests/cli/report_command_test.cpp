@@ -46,6 +46,14 @@ class ReportCommand : public testing::Test {
   test::TemporaryFolder m_folder;
 };
 
+TEST_F(ReportCommand, MeasuresTheLayersOfAProjectThatIsDrawnAsTexels) {
+  const test::Outcome outcome =
+      run({"report", "p.sward", "-o", "r", "--quick", "--section", "tiles", "--set", "render.method=texels"});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("its layers are measured"));
+  EXPECT_FALSE(Json::parse(contents("r/report.json"))["sections"]["tiles"]["rows"].empty());
+}
+
 TEST_F(ReportCommand, WritesAPageWhoseFiguresFollowFromItsFiles) {
   const test::Outcome outcome = run({"report", "p.sward", "-o", "r", "--quick", "--json"});
   ASSERT_EQ(outcome.exitCode, 0) << outcome.err;

@@ -116,6 +116,20 @@ TEST(Texels, CoverTheGroundFromEverySide) {
   }
 }
 
+TEST(Texels, LightingThemEndsWhenItIsAskedTo) {
+  auto stage = makeStage();
+  stage.renderer->setDaylight(testing::daylightAt(30.0, 40.0), 5.0);
+  ASSERT_TRUE(stage.renderer->setGround(layerOf(4, 10.0f, glm::vec3(0.3f))).ok());
+  std::stop_source stop;
+  stop.request_stop();
+  stage.renderer->setStop(stop.get_token());
+  const auto drawn = stage.renderer->drawLinear(downFrame(1));
+  ASSERT_FALSE(drawn.ok());
+  EXPECT_EQ(drawn.error().kind, ErrorKind::Cancelled);
+  stage.renderer->setStop({});
+  EXPECT_TRUE(stage.renderer->drawLinear(downFrame(1)).ok());
+}
+
 TEST(Texels, SaySoWhenTheyAreAskedForWhatOnlyLayersHave) {
   auto stage = makeStage();
   stage.renderer->setDaylight(testing::daylightAt(30.0, 40.0), 5.0);

@@ -4,6 +4,7 @@
 #include "trace/layers.h"
 #include "trace/patch_scene.h"
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -123,6 +124,15 @@ inline std::shared_ptr<scene::Patch> smallMeadow() {
   std::vector<std::shared_ptr<const mesh::Model>> models{std::make_shared<mesh::Model>(std::move(tuft)),
                                                          std::make_shared<mesh::Model>(std::move(leaf))};
   return std::make_shared<scene::Patch>(scene::scatter(1.0, std::move(models), {grass, leaves}, 7));
+}
+
+/// A closed box. Sizes that are exact in float, so that its corners meet.
+inline void addBox(mesh::Model& model, const glm::vec3& low, const glm::vec3& size) {
+  const glm::vec3 x(size.x, 0, 0), y(0, size.y, 0), z(0, 0, size.z), high = low + size;
+  for (const auto& [corner, a, b] :
+       {std::array{low, y, x}, {low, x, z}, {low, z, y}, {high, -x, -y}, {high, -z, -x}, {high, -y, -z}}) {
+    addQuad(model, corner, a, b);
+  }
 }
 
 }  // namespace sward::trace::testing

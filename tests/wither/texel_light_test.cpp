@@ -142,14 +142,5 @@ TEST(TexelLight, ThreadsGiveTheSameBytes) {
   EXPECT_EQ(a.ground, b.ground);
 }
 
-TEST(TexelLight, KajiyaKayIsBrightestOnTheMirroredCone) {
-  const glm::vec3 tangent(0.0f, 0.0f, 1.0f);
-  const glm::vec3 light = glm::normalize(glm::vec3(1.0f, 0.0f, 1.0f));
-  // The cone about the tangent: the eye as far below as the light stands above.
-  EXPECT_NEAR(kajiyaKay(tangent, glm::normalize(glm::vec3(0.0f, 1.0f, -1.0f)), light, 24.0f), 1.0f, 1e-5f);
-  EXPECT_LT(kajiyaKay(tangent, glm::normalize(glm::vec3(0.0f, 1.0f, 1.0f)), light, 24.0f), 1e-6f);
-  EXPECT_EQ(kajiyaKay(glm::vec3(0.0f), light, light, 24.0f), 0.0f);
-}
-
 }  // namespace
 }  // namespace sward::wither

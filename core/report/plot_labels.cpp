@@ -49,18 +49,30 @@ bool LabelPlacer::isFree(const Box& label, bool linesToo) const {
   return !linesToo || std::none_of(m_lines.begin(), m_lines.end(), covers);
 }
 
+bool LabelPlacer::isNearestTo(double x, double y, const Box& label) const {
+  const auto distance = [&](double px, double py) {
+    return std::hypot(px - std::clamp(px, label.left, label.right), py - std::clamp(py, label.top, label.bottom));
+  };
+  const double own = distance(x, y);
+  return std::none_of(m_points.begin(), m_points.end(),
+                      [&](const auto& point) { return distance(point[0], point[1]) < own; });
+}
+
 std::optional<Box> LabelPlacer::place(double x, double y, double width, double height) {
   // Where the label's middle lies from the point, in half labels: right and left read best.
   constexpr std::array<std::array<double, 2>, 8> kSides{
       {{1, 0}, {-1, 0}, {0, -1}, {0, 1}, {1, -1}, {1, 1}, {-1, -1}, {-1, 1}}};
   constexpr std::array kDistances{7.0, 14.0, 24.0, 36.0, 50.0};
-  for (const bool linesToo : {true, false}) {
+  struct Wish {
+    bool noLines, nearest;
+  };
+  for (const Wish wish : {Wish{true, true}, {false, true}, {true, false}, {false, false}}) {
     for (const double distance : kDistances) {
       for (const auto& [across, down] : kSides) {
         const double middleX = x + across * (distance + 0.5 * width);
         const double middleY = y + down * (distance * (across == 0.0 ? 1.0 : 0.7) + 0.5 * height);
         const Box box{middleX - 0.5 * width, middleY - 0.5 * height, middleX + 0.5 * width, middleY + 0.5 * height};
-        if (!isFree(box, linesToo)) continue;
+        if (!isFree(box, wish.noLines) || (wish.nearest && !isNearestTo(x, y, box))) continue;
         m_taken.push_back(box);
         return box;
       }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -27,18 +28,25 @@ class LabelPlacer {
  public:
   explicit LabelPlacer(Box frame) : m_frame(frame) {}
   void avoid(const Box& box) { m_taken.push_back(box); }
+  /// A marker: not covered, and labels of others rather do not stand nearer to it than to their own.
+  void avoidPoint(double x, double y, double radius) {
+    m_taken.push_back({x - radius, y - radius, x + radius, y + radius});
+    m_points.push_back({x, y});
+  }
   /// A straight line that labels should rather not cross.
   void avoidLine(double x0, double y0, double x1, double y1);
 
-  /// A label of this size for the point at (x, y): its box, the nearest that is free, which is taken then; nothing when
-  /// none is free near enough.
+  /// A label of this size for the point at (x, y): its box, the nearest that is free and no other point's, else the
+  /// nearest that is free, which is taken then; nothing when none is free near enough.
   std::optional<Box> place(double x, double y, double width, double height);
 
  private:
   bool isFree(const Box& label, bool linesToo) const;
+  bool isNearestTo(double x, double y, const Box& label) const;
 
   Box m_frame;
   std::vector<Box> m_taken, m_lines;
+  std::vector<std::array<double, 2>> m_points;
 };
 
 }  // namespace sward::report

@@ -231,7 +231,7 @@ std::string Drawing::markers() {
            escaped(nameOf(mark) + "\n" + m_plot.xLabel + ": " + figureText(mark.point->x, 4) + "\n" + m_plot.yLabel +
                    ": " + figureText(mark.point->y, 4)) +
            "</title></path>\n";
-    m_placer.avoid({mark.x - 6.0, mark.y - 6.0, mark.x + 6.0, mark.y + 6.0});
+    m_placer.avoidPoint(mark.x, mark.y, 6.0);
   }
   return out;
 }

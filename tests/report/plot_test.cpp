@@ -82,6 +82,22 @@ TEST(Axis, LinearTicksOfOneAxisHaveTheSameDecimals) {
   EXPECT_THAT(labels, testing::ElementsAre("0.00", "0.02", "0.04", "0.06", "0.08", "0.10"));
 }
 
+TEST(Labels, ALabelStandsNearestToItsOwnPointWhereThereIsRoom) {
+  // A marker above another, closed in but for places beside the other and, farther away, above itself.
+  LabelPlacer placer({0.0, 0.0, 300.0, 300.0});
+  placer.avoidPoint(100.0, 100.0, 6.0);
+  placer.avoidPoint(100.0, 118.0, 6.0);
+  placer.avoid({0.0, 91.0, 93.0, 109.0});
+  placer.avoid({107.0, 91.0, 300.0, 109.0});
+  placer.avoid({90.0, 40.0, 110.0, 93.0});
+  const auto upper = placer.place(100.0, 100.0, 50.0, 13.0);
+  ASSERT_TRUE(upper.has_value());
+  const auto distance = [](const Box& box, double x, double y) {
+    return std::hypot(x - std::clamp(x, box.left, box.right), y - std::clamp(y, box.top, box.bottom));
+  };
+  EXPECT_LT(distance(*upper, 100.0, 100.0), distance(*upper, 100.0, 118.0));
+}
+
 TEST(Labels, NoLabelCoversAnotherOrAPoint) {
   base::Random random(5);
   const Box frame{0.0, 0.0, 500.0, 300.0};

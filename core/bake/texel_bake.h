@@ -19,6 +19,7 @@ struct TexelBake {
   std::vector<Level> levels;    ///< finest first, each half of the one before
   std::vector<glm::vec3> soil;  ///< reflectance of the ground under level 0's columns, [y][x]
   double weathering = 0.0;
+  std::size_t points = 0;  ///< that the finest level was made from; 0: not known
 
   const wither::TexelGrid& grid() const { return levels.front().texel->grid(); }
 };

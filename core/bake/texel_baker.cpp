@@ -88,7 +88,7 @@ void scaleByDensity(const project::Project& project, const std::vector<wither::S
 }
 
 Result<std::vector<TexelBake::Level>> makeLevels(wither::Texel finest, const JobContext& job) {
-  SWARD_ASSIGN(std::vector<wither::Texel> texels, wither::levels(finest, kCoarsest, job));
+  SWARD_ASSIGN(std::vector<wither::Texel> texels, wither::levels(std::move(finest), kCoarsest, job));
   std::vector<TexelBake::Level> levels(texels.size());
   for (std::size_t i = 0; i < texels.size(); ++i) {
     levels[i].texel = std::make_shared<const wither::Texel>(std::move(texels[i]));
@@ -109,6 +109,7 @@ struct TexelBaker::Impl {
   std::vector<Rest> held;  ///< the last kHeld: one of every quality
   static constexpr std::size_t kHeld = 3;
   wither::Points moved;
+  base::Hash128 movedFrom;  ///< key of the rest that `moved` was last made from: it keeps what no pose changes
 
   Result<const Rest*> rest(const project::Project& project, const JobContext& job) {
     SWARD_ASSIGN(const base::Hash128 key, restKey(project, assets));
@@ -168,7 +169,7 @@ Result<std::shared_ptr<const TexelBake>> TexelBaker::texels(const project::Proje
   done.restSeconds = secondsSince(start);
   SWARD_ASSIGN(const Ageing ageing, ageingOf(project));
   wither::Points& moved = m_impl->moved;
-  moved = {};
+  if (std::exchange(m_impl->movedFrom, rest->key) != rest->key) moved = {};
   SWARD_TRY(wither::pose(rest->points, rest->strands, ageing.season, project.wither.mingle, project.wither.weathering,
                          ageing.colour, moved, job));
   scaleByDensity(project, rest->strands, moved);
@@ -177,7 +178,7 @@ Result<std::shared_ptr<const TexelBake>> TexelBaker::texels(const project::Proje
   TexelBake bake;
   bake.weathering = project.wither.weathering;
   bake.soil = rest->soil;
-  done.points = rest->points.size();
+  done.points = bake.points = rest->points.size();
   done.voxels = finest.size();
   SWARD_ASSIGN(bake.levels, makeLevels(std::move(finest), job));
   done.levelSeconds = secondsSince(start);

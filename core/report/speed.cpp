@@ -151,6 +151,7 @@ Result<std::vector<Row>> speedRows(const SpeedInput& input, const JobContext& jo
   steps.emplace_back("drawing", [&](const JobContext& j) { return drawingRows(input, j); });
   steps.emplace_back("render_warm", [&](const JobContext& j) { return single(warmRow(input, j)); });
   steps.emplace_back("edit_preview", [&](const JobContext& j) { return editPreviewRows(input, j); });
+  steps.emplace_back("curve_preview", [&](const JobContext& j) { return curvePreviewRows(input, j); });
   steps.emplace_back("storage", [&](const JobContext& j) { return Result<std::vector<Row>>(storageRows(j)); });
   steps.emplace_back("wither", [&](const JobContext& j) {
     WitherSpeedSize size;

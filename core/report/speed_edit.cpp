@@ -1,6 +1,7 @@
 #include "report/speed_edit.h"
 
 #include "bake/bake.h"
+#include "bake/withering.h"
 #include "render/frame_plan.h"
 #include "render/renderer.h"
 #include "scene/camera.h"
@@ -52,13 +53,13 @@ void edit(project::Plant& plant, Edit what, int step) {
 /// The editor's way from values to a picture.
 class Preview {
  public:
-  static Result<Preview> create(const SpeedInput& input, const JobContext& job) {
+  static Result<Preview> create(gpu::Context& context, const project::Project& project, const JobContext& job) {
     Preview preview(job);
-    SWARD_ASSIGN(preview.m_renderer, render::Renderer::create(input.context));
-    SWARD_ASSIGN(const scene::Daylight daylight, render::daylightOf(input.project));
-    preview.m_renderer->setDaylight(daylight, input.project.sky.hazeKm);
-    const scene::View view = input.project.views.empty() ? scene::View{} : input.project.views.front();
-    SWARD_ASSIGN(preview.m_frame, render::planFrame(input.project, view, daylight));
+    SWARD_ASSIGN(preview.m_renderer, render::Renderer::create(context));
+    SWARD_ASSIGN(const scene::Daylight daylight, render::daylightOf(project));
+    preview.m_renderer->setDaylight(daylight, project.sky.hazeKm);
+    const scene::View view = project.views.empty() ? scene::View{} : project.views.front();
+    SWARD_ASSIGN(preview.m_frame, render::planFrame(project, view, daylight));
     preview.m_frame.width = kWidth / 2;
     preview.m_frame.height = kHeight / 2;
     preview.m_frame.options.samples = 1;
@@ -68,6 +69,7 @@ class Preview {
   struct Measured {
     double bakeMs = 0.0, drawMs = 0.0;
     bake::BakeReport report;
+    std::shared_ptr<const bake::GroundBake> ground;
     double totalMs() const { return bakeMs + drawMs; }
   };
   Result<Measured> show(const project::Project& project, bake::Quality quality) {
@@ -80,6 +82,7 @@ class Preview {
     SWARD_TRY(m_renderer->setGround(ground));
     SWARD_TRY(m_renderer->drawOnly(m_frame));
     measured.drawMs = msSince(baked);
+    measured.ground = ground;
     return measured;
   }
   /// Full grounds choose their tiles anew, as a render does.
@@ -148,7 +151,7 @@ void against(Row& row, double limitMs, const std::string& what) {
 Result<std::vector<Row>> editPreviewRows(const SpeedInput& input, const JobContext& job) {
   std::vector<Row> rows;
   if (input.project.patch.plants.empty()) return rows;
-  SWARD_ASSIGN(Preview preview, Preview::create(input, job));
+  SWARD_ASSIGN(Preview preview, Preview::create(input.context, input.project, job));
   const int runs = input.quick ? 3 : 9;
   double coldMs = 0.0;
   if (!input.quick) {
@@ -172,6 +175,98 @@ Result<std::vector<Row>> editPreviewRows(const SpeedInput& input, const JobConte
     SWARD_ASSIGN(Row full, measure(preview, input, {Edit::Geometry, bake::Quality::Full, 1}));
     against(full, coldMs, "cold bake of the unedited project in memory, over the time");
     rows.push_back(std::move(full));
+  }
+  return rows;
+}
+
+namespace {
+
+constexpr double kCurveCoarseLimitMs = 100.0, kCurveFullLimitMs = 3000.0;
+constexpr double kCurveBlades = 100.0;  ///< on the patch
+
+/// The project's sky and first view over a square metre of about kCurveBlades upright blades, in the middle of an
+/// autumn whose curves are the author's own.
+project::Project sparseAutumn(const project::Project& project) {
+  project::Project autumn = project;
+  project::Plant blade;
+  blade.kind = project::PlantKind::Grass;
+  blade.densityPerM2 = kCurveBlades;
+  blade.clumping = 0.0;
+  blade.grass.bladesPerPlant = 1;
+  autumn.patch.sideM = 1.0;
+  autumn.patch.plants = {blade};
+  autumn.render.method = render::GroundMethod::Texels;
+  autumn.wither.texel = {};
+  autumn.wither.mingle.clear();
+  autumn.wither.weathering = 0.5;
+  return autumn;
+}
+
+base::Curve curveOf(std::vector<base::CurvePoint> points) {
+  return base::Curve::fromPoints(std::move(points)).value();  // x increases and all is finite
+}
+
+/// What letting go of a point does: another value each time, so that no cache knows it.
+void movePoint(project::Project& project, int step) {
+  const double y = 0.4 + 0.01 * step;
+  project.wither.ageing.autumn = wither::Autumn::Custom;
+  project.wither.ageing.water = curveOf({{0.0, 1.0}, {0.5, y}, {1.0, 0.05}});
+  project.wither.ageing.chlorophyll = curveOf({{0.0, 1.0}, {0.45, y}, {1.0, 0.02}});
+}
+
+Result<Row> measureCurve(Preview& preview, const project::Project& project, bake::Quality quality, int runs) {
+  // What stands at rest is known to the editor before a curve is touched.
+  project::Project edited = project;
+  movePoint(edited, 0);
+  SWARD_TRY(preview.show(edited, quality));
+  std::vector<double> total, bake, draw;
+  wither::TexelGrid grid;
+  std::size_t voxels = 0, points = 0;
+  for (int run = 1; run <= runs; ++run) {
+    movePoint(edited, run);
+    SWARD_ASSIGN(const Preview::Measured measured, preview.show(edited, quality));
+    total.push_back(measured.totalMs());
+    bake.push_back(measured.bakeMs);
+    draw.push_back(measured.drawMs);
+    grid = measured.ground->texels->grid();
+    voxels = measured.ground->texels->levels.front().texel->size();
+    points = measured.ground->texels->points;
+  }
+  const bool coarse = quality == bake::Quality::Coarse;
+  Row row;
+  row.method = "curve_preview";
+  row.timeMs = spreadOf(total);
+  row.ratio = (coarse ? kCurveCoarseLimitMs : kCurveFullLimitMs) / row.timeMs->median;
+  row.against = coarse ? "limit of 100 ms, over the time" : "limit of 3 s, over the time";
+  row.numbersAndNames = {{"quality", "\"" + std::string(bake::qualityName(quality)) + "\""},
+                         {"project", "\"" + project.name + "\""},
+                         {"width", std::to_string(kWidth)},
+                         {"height", std::to_string(kHeight)},
+                         {"columns", std::to_string(grid.columns)},
+                         {"layers", std::to_string(grid.layers)},
+                         {"points", std::to_string(points)},
+                         {"voxels", std::to_string(voxels)},
+                         {"bake_ms", rounded(spreadOf(bake).median)},
+                         {"light_and_draw_ms", rounded(spreadOf(draw).median)}};
+  row.notes =
+      "a moved point of the curves of water and chlorophyll: points posed and splatted, levels and skylight made, lit, "
+      "uploaded, and drawn at half resolution with one sample, as while an author edits";
+  return row;
+}
+
+}  // namespace
+
+Result<std::vector<Row>> curvePreviewRows(const SpeedInput& input, const JobContext& job) {
+  std::vector<project::Project> projects{sparseAutumn(input.project)};
+  projects.front().name = "hundred blades";
+  if (bake::drawnAsTexels(input.project)) projects.push_back(input.project);
+  std::vector<Row> rows;
+  for (const project::Project& project : projects) {
+    SWARD_ASSIGN(Preview preview, Preview::create(input.context, project, job));
+    for (const bake::Quality quality : {bake::Quality::Coarse, bake::Quality::Full}) {
+      SWARD_ASSIGN(Row row, measureCurve(preview, project, quality, input.quick ? 3 : 7));
+      rows.push_back(std::move(row));
+    }
   }
   return rows;
 }

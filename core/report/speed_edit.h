@@ -18,4 +18,9 @@ namespace sward::report {
 /// project in the same run. A project without plants gives no rows.
 Result<std::vector<Row>> editPreviewRows(const SpeedInput& input, const JobContext& job);
 
+/// Rows `curve_preview` of section speed: a point of the ageing curves let go, to the picture that shows it, in the
+/// same way, at coarse and at full quality: of about a hundred blades in a texel of 256 columns, and of the project
+/// itself where it is drawn as texels. Ratios: coarse against the limit of 100 ms, full against 3 s.
+Result<std::vector<Row>> curvePreviewRows(const SpeedInput& input, const JobContext& job);
+
 }  // namespace sward::report

@@ -1,18 +1,53 @@
 #include "wither/leaf_ageing.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 
 namespace sward::wither {
 namespace {
 
 /// Nothing that grows is blacker, and none of the model's channels is: tints stay finite.
-constexpr double kDarkest = 1e-3;
+constexpr float kDarkest = 1e-3f;
 
-double aged(double colour, double fresh, double now, double exponent) {
-  const double tint = std::max(colour, kDarkest) / std::max(fresh, kDarkest);
-  return std::max(now, 0.0) * std::pow(tint, exponent);
+/// Reflectances and transmittances of three channels, and two to fill vectors.
+using Channels = std::array<float, 8>;
+
+/// Binary logarithm of a normal positive number, to 2e-7: 2 atanh of (m - 1) / (m + 1), m within a root of 2 from 1.
+float log2Of(float x) {
+  constexpr float kTwoOverLn2 = 2.88539008f;
+  constexpr std::int32_t kRootHalf = 0x3f3504f3;
+  const std::int32_t bits = std::bit_cast<std::int32_t>(x) - kRootHalf;
+  const std::int32_t exponent = bits >> 23;
+  const float m = std::bit_cast<float>((bits & 0x7fffff) + kRootHalf);
+  const float t = (m - 1.0f) / (m + 1.0f), q = t * t;
+  const float series = 1.0f + q * (1.0f / 3 + q * (1.0f / 5 + q * (1.0f / 7 + q * (1.0f / 9))));
+  return static_cast<float>(exponent) + kTwoOverLn2 * t * series;
+}
+
+/// 2 to the power of x between -100 and 100, to 2e-7 of itself (Taylor).
+float exp2Of(float x) {
+  constexpr float kLn2 = 0.69314718f, kRound = 12582912.0f;
+  const float n = (x + kRound) - kRound;
+  const float r = (x - n) * kLn2;
+  const float p =
+      1.0f + r * (1.0f + r * (0.5f + r * (1.0f / 6 + r * (1.0f / 24 + r * (1.0f / 120 + r * (1.0f / 720))))));
+  return p * std::bit_cast<float>((static_cast<std::int32_t>(n) + 127) << 23);
+}
+
+Channels channelsOf(const leaf::LeafColour& colour, float filling) {
+  const auto value = [](double v) { return static_cast<float>(v); };
+  return {value(colour.reflectance.r),
+          value(colour.reflectance.g),
+          value(colour.reflectance.b),
+          value(colour.transmittance.r),
+          value(colour.transmittance.g),
+          value(colour.transmittance.b),
+          filling,
+          filling};
 }
 
 }  // namespace
@@ -20,21 +55,26 @@ double aged(double colour, double fresh, double now, double exponent) {
 AgeColour ageColour(const leaf::AgeingColours& colours) {
   // Copies of the function share one table.
   const auto table = std::make_shared<const leaf::AgeingColours>(colours);
-  const leaf::LeafColour fresh = (*table)(1.0, 1.0);
+  Channels fresh = channelsOf((*table)(1.0, 1.0), 1.0f);
+  for (float& channel : fresh) channel = std::max(channel, kDarkest);
   return [table, fresh](glm::vec3& diffuse, glm::vec3& transmitted, const Season::Shares& shares) {
     if (shares.chlorophyll >= 1.0 && shares.water >= 1.0) return;
-    const leaf::LeafColour now = (*table)(shares.chlorophyll, shares.water);
     const double green = std::clamp(std::min(shares.chlorophyll, shares.water), 0.0, 1.0);
-    const double exponent = kLastingTint + (1.0 - kLastingTint) * green;
+    const auto exponent = static_cast<float>(kLastingTint + (1.0 - kLastingTint) * green);
+    const Channels now = channelsOf((*table)(shares.chlorophyll, shares.water), 0.0f);
+    const Channels own{diffuse.r, diffuse.g, diffuse.b, transmitted.r, transmitted.g, transmitted.b, 1.0f, 1.0f};
+    Channels aged;
+    for (std::size_t c = 0; c < aged.size(); ++c) {
+      const float colour = own[c] > kDarkest ? own[c] : kDarkest;
+      aged[c] = now[c] * exp2Of(exponent * log2Of(colour / fresh[c]));
+    }
     for (int c = 0; c < 3; ++c) {
-      const double r = aged(double{diffuse[c]}, fresh.reflectance[c], now.reflectance[c], exponent);
+      const float r = std::max(aged[static_cast<std::size_t>(c)], 0.0f);
       // What lets no light through, wood or petals, does not begin to.
-      const double t = transmitted[c] > 0.0f
-                           ? aged(double{transmitted[c]}, fresh.transmittance[c], now.transmittance[c], exponent)
-                           : 0.0;
-      const double scale = 1.0 / std::max(r + t, 1.0);
-      diffuse[c] = static_cast<float>(r * scale);
-      transmitted[c] = static_cast<float>(t * scale);
+      const float t = transmitted[c] > 0.0f ? std::max(aged[static_cast<std::size_t>(c) + 3], 0.0f) : 0.0f;
+      const float scale = 1.0f / std::max(r + t, 1.0f);
+      diffuse[c] = r * scale;
+      transmitted[c] = t * scale;
     }
   };
 }

@@ -74,8 +74,8 @@ inline constexpr double kMostShift = 64.0;
 /// reduction and a Taylor polynomial, written so that loops of it become vector instructions.
 inline float transmittanceOf(float depth) {
   constexpr float kLog2E = 1.44269504f, kLn2High = 0.693359375f, kLn2Low = -2.12194440e-4f, kRound = 12582912.0f;
-  const float x = -std::min(depth, 80.0f);
-  const float n = (x * kLog2E + kRound) - kRound;  // nearest whole number
+  const float x = depth < 80.0f ? -depth : -80.0f;  // std::min would choose between places in memory
+  const float n = (x * kLog2E + kRound) - kRound;   // nearest whole number
   const float r = (x - n * kLn2High) - n * kLn2Low;
   const float p =
       1.0f + r * (1.0f + r * (0.5f + r * (1.0f / 6 + r * (1.0f / 24 + r * (1.0f / 120 + r * (1.0f / 720))))));

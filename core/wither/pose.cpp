@@ -111,43 +111,54 @@ void SwardPose::moveRange(const Points& rest, Points& moved, std::size_t begin, 
   }
 }
 
-Result<void> SwardPose::move(const Points& rest, Points& moved, const JobContext& job) const {
+void SwardPose::ageRange(const Points& rest, const AgeColour& colour, Points& moved, std::size_t begin,
+                         std::size_t end) const {
+  for (std::size_t i = begin; i < end; ++i) {
+    moved.diffuse[i] = rest.diffuse[i];
+    moved.transmitted[i] = rest.transmitted[i];
+    const Attachment at = rest.attachments[i];
+    if (!colour || at.strand < 0 || m_bodies[static_cast<std::size_t>(at.strand)].fresh) continue;
+    const double place = std::clamp(static_cast<double>(at.s), 0.0, 1.0) * static_cast<double>(kShares - 1);
+    const std::size_t k = std::min(static_cast<std::size_t>(place), kShares - 2);
+    const double t = place - static_cast<double>(k);
+    const Season::Shares* shares = &m_shares[static_cast<std::size_t>(at.strand) * kShares + k];
+    colour(moved.diffuse[i], moved.transmitted[i],
+           {shares[0].water + t * (shares[1].water - shares[0].water),
+            shares[0].chlorophyll + t * (shares[1].chlorophyll - shares[0].chlorophyll)});
+  }
+}
+
+template <typename Range>
+Result<void> SwardPose::forRanges(const Points& rest, Points& moved, const JobContext& job, const Range& range) const {
   SWARD_TRY(check(rest, m_bodies.size()));
   prepare(rest, moved);
-  base::parallelFor(job, rest.size(), kGrain,
-                    [&](std::size_t begin, std::size_t end) { moveRange(rest, moved, begin, end); });
+  base::parallelFor(job, rest.size(), kGrain, range);
   if (job.cancelled()) return Error::cancelled();
   return {};
 }
 
+Result<void> SwardPose::move(const Points& rest, Points& moved, const JobContext& job) const {
+  return forRanges(rest, moved, job, [&](std::size_t begin, std::size_t end) { moveRange(rest, moved, begin, end); });
+}
+
 Result<void> SwardPose::age(const Points& rest, const AgeColour& colour, Points& moved, const JobContext& job) const {
-  SWARD_TRY(check(rest, m_bodies.size()));
-  prepare(rest, moved);
-  base::parallelFor(job, rest.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      moved.diffuse[i] = rest.diffuse[i];
-      moved.transmitted[i] = rest.transmitted[i];
-      const Attachment at = rest.attachments[i];
-      if (!colour || at.strand < 0 || m_bodies[static_cast<std::size_t>(at.strand)].fresh) continue;
-      const double place = std::clamp(static_cast<double>(at.s), 0.0, 1.0) * static_cast<double>(kShares - 1);
-      const std::size_t k = std::min(static_cast<std::size_t>(place), kShares - 2);
-      const double t = place - static_cast<double>(k);
-      const Season::Shares* shares = &m_shares[static_cast<std::size_t>(at.strand) * kShares + k];
-      colour(moved.diffuse[i], moved.transmitted[i],
-             {shares[0].water + t * (shares[1].water - shares[0].water),
-              shares[0].chlorophyll + t * (shares[1].chlorophyll - shares[0].chlorophyll)});
-    }
+  return forRanges(rest, moved, job,
+                   [&](std::size_t begin, std::size_t end) { ageRange(rest, colour, moved, begin, end); });
+}
+
+Result<void> SwardPose::moveAndAge(const Points& rest, const AgeColour& colour, Points& moved,
+                                   const JobContext& job) const {
+  return forRanges(rest, moved, job, [&](std::size_t begin, std::size_t end) {
+    moveRange(rest, moved, begin, end);
+    ageRange(rest, colour, moved, begin, end);
   });
-  if (job.cancelled()) return Error::cancelled();
-  return {};
 }
 
 Result<void> pose(const Points& rest, std::span<const Strand> strands, const Season& season,
                   std::span<const MingleSample> samples, double weathering, const AgeColour& colour, Points& moved,
                   const JobContext& job) {
   const SwardPose posed(strands, season, samples, weathering, job);
-  SWARD_TRY(posed.move(rest, moved, job));
-  return posed.age(rest, colour, moved, job);
+  return posed.moveAndAge(rest, colour, moved, job);
 }
 
 Result<void> paperPose(const Points& rest, std::span<const Strand> strands, const Season& season,

@@ -30,6 +30,8 @@ class SwardPose {
   /// Ages diffuse and transmitted colours of `moved` from those at rest. Shares are taken linear between 17 places of
   /// each blade. Where the moment is 0 they stay.
   Result<void> age(const Points& rest, const AgeColour& colour, Points& moved, const JobContext& job) const;
+  /// Both, reading the points once.
+  Result<void> moveAndAge(const Points& rest, const AgeColour& colour, Points& moved, const JobContext& job) const;
 
  private:
   static constexpr std::size_t kShares = 17;
@@ -48,6 +50,9 @@ class SwardPose {
     bool fresh = true;  ///< nothing has aged
   };
   void moveRange(const Points& rest, Points& moved, std::size_t begin, std::size_t end) const;
+  void ageRange(const Points& rest, const AgeColour& colour, Points& moved, std::size_t begin, std::size_t end) const;
+  template <typename Range>
+  Result<void> forRanges(const Points& rest, Points& moved, const JobContext& job, const Range& range) const;
 
   std::vector<Body> m_bodies;
   std::vector<Node> m_nodes;

@@ -102,16 +102,20 @@ class SkySweep {
     constexpr float kEach = 1.0f / kSkyDirections;
     for (std::size_t i = 0; i < m_ground.size(); ++i) m_ground[i] += kEach * transmittanceOf(m_depths[i]);
   }
-  void addSeen(const glm::dvec3& l, const float* depths, std::size_t begin, std::size_t end) {
+  /// Three loops, each of few enough arrays for the compiler to see that they are apart. `seen`: depths, and then what
+  /// of them is left of the sky's part.
+  void addSeen(const glm::dvec3& l, float* seen, std::size_t begin, std::size_t end) {
     const auto each = static_cast<float>(1.0 / (kSkyDirections * l.z));
-    const auto x = static_cast<float>(l.x), y = static_cast<float>(l.y), z = static_cast<float>(l.z);
+    for (std::size_t i = begin; i < end; ++i) seen[i] = each * transmittanceOf(seen[i]);
+    addSide(glm::vec3(l), seen, m_front.data(), begin, end);
+    addSide(-glm::vec3(l), seen, m_back.data(), begin, end);
+  }
+  void addSide(const glm::vec3& l, const float* seen, float* side, std::size_t begin, std::size_t end) const {
+    const float x = l.x, y = l.y, z = l.z;
     const float *nx = m_sides[0].data(), *ny = m_sides[1].data(), *nz = m_sides[2].data(), *any = m_sides[3].data();
-    float *front = m_front.data(), *back = m_back.data();
     for (std::size_t i = begin; i < end; ++i) {
-      const float seen = each * transmittanceOf(depths[i]);
-      const float facing = nx[i] * x + ny[i] * y + nz[i] * z;  // leafSides
-      front[i] += seen * (std::max(facing, 0.0f) + any[i]);
-      back[i] += seen * (std::max(-facing, 0.0f) + any[i]);
+      const float facing = nx[i] * x + ny[i] * y + nz[i] * z;  // as leafSides: half of |f| + f is what is above 0
+      side[i] += seen[i] * (0.5f * (std::abs(facing) + facing) + any[i]);
     }
   }
 

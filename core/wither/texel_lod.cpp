@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace sward::wither {
 namespace {
@@ -239,8 +240,9 @@ Result<Texel> halved(const Texel& texel, const JobContext& job) {
   return half;
 }
 
-Result<std::vector<Texel>> levels(const Texel& texel, int coarsest, const JobContext& job) {
-  std::vector<Texel> out{texel};
+Result<std::vector<Texel>> levels(Texel texel, int coarsest, const JobContext& job) {
+  std::vector<Texel> out;
+  out.push_back(std::move(texel));
   const auto whole = [](int size) { return size % (2 * kBrick) == 0; };
   while (whole(out.back().grid().columns) && whole(out.back().grid().layers) &&
          out.back().grid().columns / 2 >= coarsest) {

@@ -25,6 +25,6 @@ Result<Texel> halved(const Texel& texel, const JobContext& job);
 
 /// The texel itself and its halves, until a half would have fewer than `coarsest` columns or would not be of whole
 /// bricks.
-Result<std::vector<Texel>> levels(const Texel& texel, int coarsest, const JobContext& job);
+Result<std::vector<Texel>> levels(Texel texel, int coarsest, const JobContext& job);
 
 }  // namespace sward::wither

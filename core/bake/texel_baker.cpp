@@ -4,8 +4,9 @@
 #include "bake/keys.h"
 #include "bake/plants.h"
 #include "bake/soil.h"
-#include "bake/withering.h"
+#include "leaf/ageing.h"
 #include "project/value_hash.h"
+#include "wither/leaf_ageing.h"
 #include "wither/points.h"
 #include "wither/pose.h"
 #include "wither/texel_lod.h"
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -109,6 +111,18 @@ struct TexelBaker::Impl {
   std::vector<Rest> held;  ///< the last kHeld: one of every quality
   static constexpr std::size_t kHeld = 3;
   wither::Points moved;
+  std::optional<leaf::LeafOptions>
+      leaves;  ///< that `colour` was made of: curves do not change it, and it takes longest
+  wither::AgeColour colour;
+
+  Result<wither::AgeColour> colourOf(const project::Project& project) {
+    if (leaves != project.leaf) {
+      SWARD_ASSIGN(const leaf::AgeingColours colours, leaf::AgeingColours::build(project.leaf));
+      colour = wither::ageColour(colours);
+      leaves = project.leaf;
+    }
+    return colour;
+  }
   base::Hash128 movedFrom;  ///< key of the rest that `moved` was last made from: it keeps what no pose changes
 
   Result<const Rest*> rest(const project::Project& project, const JobContext& job) {
@@ -167,11 +181,12 @@ Result<std::shared_ptr<const TexelBake>> TexelBaker::texels(const project::Proje
   SWARD_ASSIGN(const Rest* rest, m_impl->rest(project, job));
   TexelReport done;
   done.restSeconds = secondsSince(start);
-  SWARD_ASSIGN(const Ageing ageing, ageingOf(project));
+  SWARD_ASSIGN(const wither::Season season, wither::Season::create(project.wither.ageing, project.wither.body));
+  SWARD_ASSIGN(const wither::AgeColour colour, m_impl->colourOf(project));
   wither::Points& moved = m_impl->moved;
   if (std::exchange(m_impl->movedFrom, rest->key) != rest->key) moved = {};
-  SWARD_TRY(wither::pose(rest->points, rest->strands, ageing.season, project.wither.mingle, project.wither.weathering,
-                         ageing.colour, moved, job));
+  SWARD_TRY(wither::pose(rest->points, rest->strands, season, project.wither.mingle, project.wither.weathering, colour,
+                         moved, job));
   scaleByDensity(project, rest->strands, moved);
   SWARD_ASSIGN(wither::Texel finest, wither::pointsToTexel(moved, rest->grid, project.wither.texel.splatVoxels, job));
   done.ageSeconds = secondsSince(start);

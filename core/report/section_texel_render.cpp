@@ -201,6 +201,7 @@ Result<Row> drawnRow(const Degree& degree, const SpeedView& view, const render::
   row.timeMs = time;
   if (&drawer != &layers) {
     row.ratio = other.median / time.median;
+    row.numbersAndNames["march_ms"] = numberText(other.median);
     row.against = "the march of the layers, same view and degree, in turn";
   }
   row.notes = drawer.ground->texels ? "voxels marched front to back; levels of at most so many columns"

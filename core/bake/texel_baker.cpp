@@ -88,6 +88,21 @@ void scaleByDensity(const project::Project& project, const std::vector<wither::S
   }
 }
 
+Result<std::vector<TexelBake::Level>> makeLevels(wither::Texel finest, const JobContext& job) {
+  SWARD_ASSIGN(std::vector<wither::Texel> texels, wither::levels(finest, kCoarsest, job));
+  std::vector<TexelBake::Level> levels(texels.size());
+  for (std::size_t i = texels.size(); i-- > 0;) {
+    levels[i].texel = std::make_shared<const wither::Texel>(std::move(texels[i]));
+    const wither::Texel& texel = *levels[i].texel;
+    if (texel.grid().columns <= kSkyColumns || i + 1 == levels.size()) {
+      SWARD_ASSIGN(levels[i].sky, wither::marchedSky(texel, job));
+    } else {
+      SWARD_ASSIGN(levels[i].sky, wither::finerSky(texel, *levels[i + 1].texel, levels[i + 1].sky, job));
+    }
+  }
+  return levels;
+}
+
 double secondsSince(std::chrono::steady_clock::time_point& start) {
   const auto now = std::chrono::steady_clock::now();
   return std::chrono::duration<double>(now - std::exchange(start, now)).count();
@@ -121,18 +136,7 @@ TexelBaker::TexelBaker(TexelBaker&&) noexcept = default;
 TexelBaker& TexelBaker::operator=(TexelBaker&&) noexcept = default;
 
 Result<std::vector<TexelBake::Level>> texelLevels(wither::Texel finest, const JobContext& job) {
-  SWARD_ASSIGN(std::vector<wither::Texel> texels, wither::levels(finest, kCoarsest, job));
-  std::vector<TexelBake::Level> levels(texels.size());
-  for (std::size_t i = texels.size(); i-- > 0;) {
-    levels[i].texel = std::make_shared<const wither::Texel>(std::move(texels[i]));
-    const wither::Texel& texel = *levels[i].texel;
-    if (texel.grid().columns <= kSkyColumns || i + 1 == levels.size()) {
-      SWARD_ASSIGN(levels[i].sky, wither::marchedSky(texel, job));
-    } else {
-      SWARD_ASSIGN(levels[i].sky, wither::finerSky(texel, *levels[i + 1].texel, levels[i + 1].sky, job));
-    }
-  }
-  return levels;
+  return makeLevels(std::move(finest), job);
 }
 
 wither::TexelGrid texelGridOf(double sideM, double heightM, int columns) {
@@ -185,7 +189,7 @@ Result<std::shared_ptr<const TexelBake>> TexelBaker::texels(const project::Proje
   bake.soil = rest->soil;
   done.points = rest->points.size();
   done.voxels = finest.size();
-  SWARD_ASSIGN(bake.levels, texelLevels(std::move(finest), job));
+  SWARD_ASSIGN(bake.levels, makeLevels(std::move(finest), job));
   done.levelSeconds = secondsSince(start);
   for (const TexelBake::Level& level : bake.levels) done.bytes += level.texel->bytes();
   if (report != nullptr) *report = done;

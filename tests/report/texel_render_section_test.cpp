@@ -150,6 +150,7 @@ TEST(TexelTruth, BladesAreThoseOfTheTexel) {
     project::Project project = texelProject();
     project.wither.weathering = weathering;
     project.wither.texel.proportion = 60.0;
+    project.patch.plants[0].grass.segments = 12;  // meshes age at their vertices, points where they are
     wither::MingleSample late, early;
     late.ageing = base::Curve::constant(0.5 * weathering);
     early.share = 0.5;

@@ -20,9 +20,8 @@
 namespace sward::bake {
 namespace {
 
-constexpr int kTexelVersion = 1;  ///< raise it when texels change for the same project
+constexpr int kTexelVersion = 2;  ///< raise it when texels change for the same project
 constexpr int kCoarsest = 8;      ///< columns of the coarsest level: a voxel is then as wide as a tuft
-constexpr int kSkyColumns = 64;   ///< levels up to this march to the sky, finer ones look it up
 /// Bent blades and the round of a splat's edge reach a little over the tallest plant.
 constexpr double kHeadroom = 1.02;
 
@@ -91,14 +90,9 @@ void scaleByDensity(const project::Project& project, const std::vector<wither::S
 Result<std::vector<TexelBake::Level>> makeLevels(wither::Texel finest, const JobContext& job) {
   SWARD_ASSIGN(std::vector<wither::Texel> texels, wither::levels(finest, kCoarsest, job));
   std::vector<TexelBake::Level> levels(texels.size());
-  for (std::size_t i = texels.size(); i-- > 0;) {
+  for (std::size_t i = 0; i < texels.size(); ++i) {
     levels[i].texel = std::make_shared<const wither::Texel>(std::move(texels[i]));
-    const wither::Texel& texel = *levels[i].texel;
-    if (texel.grid().columns <= kSkyColumns || i + 1 == levels.size()) {
-      SWARD_ASSIGN(levels[i].sky, wither::marchedSky(texel, job));
-    } else {
-      SWARD_ASSIGN(levels[i].sky, wither::finerSky(texel, *levels[i + 1].texel, levels[i + 1].sky, job));
-    }
+    SWARD_ASSIGN(levels[i].sky, wither::sweptSky(*levels[i].texel, job));
   }
   return levels;
 }

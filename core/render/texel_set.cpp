@@ -19,7 +19,6 @@ using wither::Voxel;
 constexpr int kBrick = wither::TexelGrid::kBrick;
 constexpr std::size_t kBrickVoxels = std::size_t{kBrick} * kBrick * kBrick;
 constexpr std::size_t kGrain = 4096;
-constexpr std::size_t kFarLevels = 2;  ///< how much coarser what shades from afar may be
 
 /// Texels of a texture buffer: what Mesa's software renderer and common GPUs take (OpenGL grants 2^16 alone).
 constexpr std::size_t kMostTexels = std::size_t{1} << 27;
@@ -138,9 +137,7 @@ Result<void> TexelSet::relight(const wither::TexelLight& light, const JobContext
   std::vector<std::uint32_t> soil(m_bake->soil.size());
   for (std::size_t l = 0; l < m_bake->levels.size(); ++l) {
     const auto& level = m_bake->levels[l];
-    const wither::Texel* coarse =
-        l + kFarLevels < m_bake->levels.size() ? m_bake->levels[l + kFarLevels].texel.get() : nullptr;
-    SWARD_ASSIGN(const wither::LitTexel lit, wither::lightTexel(*level.texel, coarse, level.sky, light, job));
+    SWARD_ASSIGN(const wither::LitTexel lit, wither::lightTexel(*level.texel, level.sky, light, job));
     const std::size_t first = leaves.size();
     leaves.resize(first + level.texel->size());
     const std::span<const Voxel> voxels = level.texel->voxels();

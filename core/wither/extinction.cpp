@@ -132,6 +132,21 @@ double extinction(const Voxel& voxel, const glm::dvec3& l) {
   return std::sqrt(std::max(0.625 * trace * glm::dot(l, turned) + 0.375 * glm::dot(turned, turned), 0.0));
 }
 
+LeafSection::LeafSection(const Voxel& voxel) {
+  constexpr float kDensest = 1e30f;  // products with lengths stay in the range of floats
+  const std::array<float, 6>& s = voxel.spread;
+  const float around = std::max(voxel.density - (s[0] + s[3] + s[5]), 0.0f);
+  const float trace = s[0] + s[3] + s[5] + around;
+  if (!(trace > 0.0f)) return;
+  m_trace = std::min(trace, kDensest);
+  const float third = around / trace / 3.0f;
+  const float xx = s[0] / trace + third, yy = s[3] / trace + third, zz = s[5] / trace + third;
+  const float xy = s[1] / trace, xz = s[2] / trace, yz = s[4] / trace;
+  m_form = {0.625f * xx + 0.375f * (xx * xx + xy * xy + xz * xz), 0.625f * xy + 0.375f * (xx * xy + xy * yy + xz * yz),
+            0.625f * xz + 0.375f * (xx * xz + xy * yz + xz * zz), 0.625f * yy + 0.375f * (xy * xy + yy * yy + yz * yz),
+            0.625f * yz + 0.375f * (xy * xz + yy * yz + yz * zz), 0.625f * zz + 0.375f * (xz * xz + yz * yz + zz * zz)};
+}
+
 double normalShare(const Voxel& voxel) {
   if (voxel.normal == glm::vec3(0.0f) || !(voxel.density > 0.0f)) return 0.0;
   const glm::dvec3 n(voxel.normal);

@@ -2,18 +2,19 @@
 
 #include "base/parallel.h"
 #include "wither/extinction.h"
+#include "wither/light_sweep.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
 
 namespace sward::wither {
 namespace {
 
-/// A depth of 8 leaves 3e-4 of the light: under half a step of the ten bits that a renderer keeps of its root.
-constexpr double kEnoughDepth = 8.0;
-constexpr std::size_t kGrain = 512;
+constexpr std::size_t kGrain = 4096;
 constexpr int kRings = 3, kPerRing = 5;
 constexpr int kSkyDirections = kRings * kPerRing;
 
@@ -32,175 +33,139 @@ std::array<glm::dvec3, kSkyDirections> skyDirections() {
   return directions;
 }
 
-glm::dvec3 centreOf(const TexelGrid& grid, const glm::u16vec3& place) {
-  return (glm::dvec3(place) + 0.5) * grid.voxelM();
+/// A voxel's part of leaves that have its normal, and the irradiance that a unit beam from l gives its two sides.
+struct Facing {
+  float front = 0.0f, back = 0.0f;
+};
+Facing facing(const glm::vec3& normal, float share, const glm::vec3& l) {
+  const float cosine = normal.x * l.x + normal.y * l.y + normal.z * l.z;
+  const float any = 0.25f * (1.0f - share);  // leaves of every direction: half of |n.l| = 1/2 on either side
+  return {share * std::max(cosine, 0.0f) + any, share * std::max(-cosine, 0.0f) + any};
 }
 
-/// How far a leaf's own voxel reaches along a direction: the march starts where it ends.
-double leadOf(const TexelGrid& grid, const glm::dvec3& l) {
-  const glm::dvec3 cells = glm::abs(l) / grid.voxelM();
-  return 1.0 / std::max(cells.x, std::max(cells.y, cells.z));
-}
+/// What of a voxel counts for light, whatever it comes from: a third of the voxel's bytes, read once a direction.
+struct LeafShape {
+  LeafSection section;
+  glm::vec3 normal;
+  float share;
+};
 
-double transmitted(const Texel& texel, const TexelExtinction& medium, const glm::dvec3& from, const glm::dvec3& l,
-                   double leadM) {
-  return std::exp(-opticalDepth(texel, medium, from + leadM * l, l, kEnoughDepth));
-}
-
-/// A texel and, for what is far, a coarse level of it, toward one light.
-class SunMarch {
+/// All directions' light over one texel, row by row.
+class SkySweep {
  public:
-  static Result<SunMarch> create(const Texel& texel, const Texel* coarse, const glm::dvec3& l, const JobContext& job) {
-    SunMarch march(texel, coarse, l);
-    SWARD_ASSIGN(march.m_fine, TexelExtinction::create(texel, l, job));
-    if (coarse != nullptr) {
-      SWARD_ASSIGN(march.m_far, TexelExtinction::create(*coarse, l, job));
-    }
-    return march;
+  SkySweep(const Texel& texel, const TexelRows& rows)
+      : m_rows(rows),
+        m_shapes(texel.size()),
+        m_extinction(texel.size()),
+        m_front(texel.size(), 0.0f),
+        m_back(texel.size(), 0.0f),
+        m_ground(static_cast<std::size_t>(texel.grid().columns) * static_cast<std::size_t>(texel.grid().columns),
+                 0.0f) {}
+
+  void prepare(const Texel& texel, const JobContext& job) {
+    base::parallelFor(job, m_shapes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const Voxel& voxel = texel.voxels()[m_rows.order()[i]];
+        m_shapes[i] = {LeafSection(voxel), voxel.normal, static_cast<float>(normalShare(voxel))};
+      }
+    });
   }
-  double transmitted(const glm::dvec3& from, double leadM) const {
-    const glm::dvec3 start = from + leadM * m_l;
-    if (m_coarse == nullptr) return std::exp(-opticalDepth(*m_texel, m_fine, start, m_l, kEnoughDepth));
-    const double near = opticalDepth(*m_texel, m_fine, start, m_l, kEnoughDepth, m_nearM);
-    const glm::dvec3 beyond = start + m_nearM * m_l;
-    if (near >= kEnoughDepth || beyond.z >= m_texel->grid().heightM) return std::exp(-near);
-    return std::exp(-near - opticalDepth(*m_coarse, m_far, beyond, m_l, kEnoughDepth - near));
+
+  Result<void> add(const glm::dvec3& l, const JobContext& job) {
+    const glm::vec3 toward(l);
+    base::parallelFor(job, m_shapes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) m_extinction[i] = m_shapes[i].section(toward);
+    });
+    SWARD_ASSIGN(const SweptDepths depths, sweepDepths(m_rows, m_extinction, l, job));
+    constexpr float kEach = 1.0f / kSkyDirections;
+    const auto each = static_cast<float>(1.0 / (kSkyDirections * l.z));
+    base::parallelFor(job, m_shapes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const float seen = each * transmittanceOf(depths.voxels[i]);
+        const Facing sides = facing(m_shapes[i].normal, m_shapes[i].share, toward);
+        m_front[i] += seen * sides.front;
+        m_back[i] += seen * sides.back;
+      }
+    });
+    for (std::size_t i = 0; i < m_ground.size(); ++i) m_ground[i] += kEach * transmittanceOf(depths.ground[i]);
+    return {};
+  }
+
+  /// In the order of the voxels.
+  TexelSky sky(const JobContext& job) {
+    TexelSky sky{std::vector<float>(m_front.size()), std::vector<float>(m_back.size()), std::move(m_ground)};
+    base::parallelFor(job, m_front.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        sky.front[m_rows.order()[i]] = m_front[i];
+        sky.back[m_rows.order()[i]] = m_back[i];
+      }
+    });
+    return sky;
   }
 
  private:
-  SunMarch(const Texel& texel, const Texel* coarse, const glm::dvec3& l)
-      : m_texel(&texel), m_coarse(coarse), m_l(l), m_nearM(kNearVoxels * texel.grid().voxelM().x) {}
-  const Texel *m_texel, *m_coarse;
-  glm::dvec3 m_l;
-  double m_nearM;
-  TexelExtinction m_fine, m_far;
+  const TexelRows& m_rows;
+  std::vector<LeafShape> m_shapes;
+  std::vector<float> m_extinction, m_front, m_back, m_ground;
 };
 
-/// A voxel's part of leaves that have its normal, and the irradiance that a unit beam from l gives its two sides.
-struct Facing {
-  double front = 0.0, back = 0.0;
-};
-Facing facing(const glm::vec3& normal, double share, const glm::dvec3& l) {
-  const double cosine = glm::dot(glm::dvec3(normal), l);
-  const double any = 0.25 * (1.0 - share);  // leaves of every direction: half of |n.l| = 1/2 on either side
-  return {share * std::max(cosine, 0.0) + any, share * std::max(-cosine, 0.0) + any};
+/// Radiance of leaves that the light reaches with a transmittance of `through`.
+LitVoxel litVoxel(const Voxel& voxel, float skyFront, float skyBack, const TexelLight& light, float through) {
+  const Facing sides = facing(voxel.normal, static_cast<float>(normalShare(voxel)), glm::vec3(light.toSun));
+  const glm::vec3 sun = glm::vec3(light.sunIrradiance / std::numbers::pi) * through;
+  // Irradiance over pi of either side; skyRadiance times the share of the sky that a side sees.
+  const glm::vec3 front = sun * sides.front + glm::vec3(light.skyRadiance) * skyFront;
+  const glm::vec3 back = sun * sides.back + glm::vec3(light.skyRadiance) * skyBack;
+  return {voxel.diffuse * front + voxel.transmitted * back, voxel.diffuse * back + voxel.transmitted * front, through};
 }
 
-/// What the voxels of a level see of one part of the sky after another.
-Result<void> marchSky(const Texel& texel, const TexelExtinction& medium, const glm::dvec3& l, const JobContext& job,
-                      TexelSky& sky) {
-  const TexelGrid& grid = texel.grid();
-  const double lead = leadOf(grid, l);
-  const std::span<const Voxel> voxels = texel.voxels();
-  const std::span<const glm::u16vec3> places = texel.places();
-  const double each = 1.0 / kSkyDirections;
-  base::parallelFor(job, voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+/// Toward the sun; a sun at or under the horizon leaves everything dark.
+Result<SweptDepths> sunDepths(const Texel& texel, const TexelRows& rows, const glm::dvec3& l, const JobContext& job) {
+  std::vector<float> extinctions(texel.size());
+  base::parallelFor(job, extinctions.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    const glm::vec3 toward(l);
     for (std::size_t i = begin; i < end; ++i) {
-      const double seen = transmitted(texel, medium, centreOf(grid, places[i]), l, lead) * each / l.z;
-      const Facing sides = facing(voxels[i].normal, normalShare(voxels[i]), l);
-      sky.front[i] += static_cast<float>(seen * sides.front);
-      sky.back[i] += static_cast<float>(seen * sides.back);
+      extinctions[i] = LeafSection(texel.voxels()[rows.order()[i]])(toward);
     }
   });
-  const auto columns = static_cast<std::size_t>(grid.columns);
-  base::parallelFor(job, columns, 8, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t y = begin; y < end; ++y) {
-      for (std::size_t x = 0; x < columns; ++x) {
-        const glm::dvec3 foot((static_cast<double>(x) + 0.5) * grid.voxelM().x,
-                              (static_cast<double>(y) + 0.5) * grid.voxelM().y, 0.0);
-        sky.ground[y * columns + x] += static_cast<float>(transmitted(texel, medium, foot, l, 0.0) * each);
-      }
-    }
-  });
-  if (job.cancelled()) return Error::cancelled();
-  return {};
+  return sweepDepths(rows, extinctions, l, job);
 }
 
 }  // namespace
 
-Result<TexelSky> marchedSky(const Texel& texel, const JobContext& job) {
-  TexelSky sky;
-  sky.front.assign(texel.size(), 0.0f);
-  sky.back.assign(texel.size(), 0.0f);
-  sky.ground.assign(static_cast<std::size_t>(texel.grid().columns) * static_cast<std::size_t>(texel.grid().columns),
-                    0.0f);
-  for (const glm::dvec3& l : skyDirections()) {
-    SWARD_ASSIGN(const TexelExtinction medium, TexelExtinction::create(texel, l, job));
-    SWARD_TRY(marchSky(texel, medium, l, job, sky));
-  }
-  return sky;
-}
-
-Result<TexelSky> finerSky(const Texel& texel, const Texel& coarse, const TexelSky& coarseSky, const JobContext& job) {
-  const TexelGrid &fine = texel.grid(), &grid = coarse.grid();
-  const int ratio = fine.columns / grid.columns;
-  if (ratio < 1 || grid.columns * ratio != fine.columns || grid.layers * ratio != fine.layers) {
-    return Error::failed("the levels of a texel do not halve one another", "texel");
-  }
-  TexelSky sky;
-  sky.front.assign(texel.size(), 0.0f);
-  sky.back.assign(texel.size(), 0.0f);
-  const auto columns = static_cast<std::size_t>(fine.columns);
-  sky.ground.assign(columns * columns, 0.0f);
-  const std::span<const Voxel> voxels = texel.voxels();
-  const std::span<const glm::u16vec3> places = texel.places();
-  base::parallelFor(job, voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::int64_t under = coarse.find(glm::ivec3(places[i]) / ratio);
-      if (under < 0) continue;
-      const auto c = static_cast<std::size_t>(under);
-      // The two sides of the coarse voxel see so much of the sky together; the fine leaf turns its own way in it.
-      const double open = double{coarseSky.front[c]} + double{coarseSky.back[c]};
-      const double up = 0.5 * (1.0 + double{voxels[i].normal.z});
-      sky.front[i] = static_cast<float>(open * up);
-      sky.back[i] = static_cast<float>(open * (1.0 - up));
-    }
-  });
-  for (std::size_t y = 0; y < columns; ++y) {
-    for (std::size_t x = 0; x < columns; ++x) {
-      const auto r = static_cast<std::size_t>(ratio);
-      sky.ground[y * columns + x] = coarseSky.ground[y / r * static_cast<std::size_t>(grid.columns) + x / r];
-    }
-  }
+Result<TexelSky> sweptSky(const Texel& texel, const JobContext& job) {
+  SWARD_ASSIGN(const TexelRows rows, TexelRows::create(texel, job));
+  SkySweep sweep(texel, rows);
+  sweep.prepare(texel, job);
+  for (const glm::dvec3& l : skyDirections()) SWARD_TRY(sweep.add(l, job));
+  TexelSky sky = sweep.sky(job);
   if (job.cancelled()) return Error::cancelled();
   return sky;
 }
 
-Result<LitTexel> lightTexel(const Texel& texel, const Texel* coarse, const TexelSky& sky, const TexelLight& light,
-                            const JobContext& job) {
-  const TexelGrid& grid = texel.grid();
-  const std::span<const Voxel> voxels = texel.voxels();
-  const std::span<const glm::u16vec3> places = texel.places();
+Result<LitTexel> lightTexel(const Texel& texel, const TexelSky& sky, const TexelLight& light, const JobContext& job) {
+  if (sky.front.size() != texel.size() || sky.back.size() != texel.size()) {
+    return Error::failed("the sky of " + std::to_string(sky.front.size()) + " voxels is not that of a texel of " +
+                             std::to_string(texel.size()),
+                         "texel");
+  }
   LitTexel lit;
   lit.voxels.resize(texel.size());
-  const auto columns = static_cast<std::size_t>(grid.columns);
+  const auto columns = static_cast<std::size_t>(texel.grid().columns);
   lit.groundSun.assign(columns * columns, 0.0f);
-  const bool sunUp = light.toSun.z > 0.0;
-  const double lead = leadOf(grid, light.toSun);
-  SWARD_ASSIGN(const SunMarch march, SunMarch::create(texel, coarse, light.toSun, job));
-  base::parallelFor(job, voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Voxel& voxel = voxels[i];
-      const double through = sunUp ? march.transmitted(centreOf(grid, places[i]), lead) : 0.0;
-      const Facing sides = facing(voxel.normal, normalShare(voxel), light.toSun);
-      const glm::dvec3 sun = light.sunIrradiance * (through / std::numbers::pi);
-      // Irradiance over pi of either side; skyRadiance times the share of the sky that a side sees.
-      const glm::dvec3 front = sun * sides.front + light.skyRadiance * double{sky.front[i]};
-      const glm::dvec3 back = sun * sides.back + light.skyRadiance * double{sky.back[i]};
-      const glm::dvec3 reflected(voxel.diffuse), passed(voxel.transmitted);
-      lit.voxels[i] = {glm::vec3(reflected * front + passed * back), glm::vec3(reflected * back + passed * front),
-                       static_cast<float>(through)};
-    }
-  });
-  if (sunUp) {
-    base::parallelFor(job, columns, 8, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t y = begin; y < end; ++y) {
-        for (std::size_t x = 0; x < columns; ++x) {
-          const glm::dvec3 foot((static_cast<double>(x) + 0.5) * grid.voxelM().x,
-                                (static_cast<double>(y) + 0.5) * grid.voxelM().y, 0.0);
-          lit.groundSun[y * columns + x] = static_cast<float>(march.transmitted(foot, 0.0));
-        }
-      }
+  const auto shade = [&](std::size_t i, float through) {
+    lit.voxels[i] = litVoxel(texel.voxels()[i], sky.front[i], sky.back[i], light, through);
+  };
+  if (light.toSun.z > 0.0) {
+    SWARD_ASSIGN(const TexelRows rows, TexelRows::create(texel, job));
+    SWARD_ASSIGN(const SweptDepths depths, sunDepths(texel, rows, light.toSun, job));
+    base::parallelFor(job, texel.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) shade(rows.order()[i], transmittanceOf(depths.voxels[i]));
+    });
+    std::transform(depths.ground.begin(), depths.ground.end(), lit.groundSun.begin(), transmittanceOf);
+  } else {
+    base::parallelFor(job, texel.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) shade(i, 0.0f);
     });
   }
   if (job.cancelled()) return Error::cancelled();

@@ -24,14 +24,11 @@ struct TexelSky {
   std::vector<float> front, back;  ///< one a voxel
   std::vector<float> ground;       ///< [y][x]
 };
-/// Marches fifteen directions of the upper hemisphere (equal cosine-weighted parts, the same for every voxel). Errors:
-/// Error::cancelled().
-Result<TexelSky> marchedSky(const Texel& texel, const JobContext& job);
-/// The same of a finer level, looked up in a coarser one's: skylight changes slowly from place to place, and each leaf
-/// keeps its own inclination. Errors: the grids are no levels of one texel; Error::cancelled().
-Result<TexelSky> finerSky(const Texel& texel, const Texel& coarse, const TexelSky& coarseSky, const JobContext& job);
+/// From fifteen directions of the upper hemisphere (equal cosine-weighted parts, the same for every voxel), each one
+/// sweep (sweepDepths). Errors: Error::cancelled().
+Result<TexelSky> sweptSky(const Texel& texel, const JobContext& job);
 
-/// Radiance that a voxel's leaves send to an eye on their normal's side and on the other: sunlight that marched through
+/// Radiance that a voxel's leaves send to an eye on their normal's side and on the other: sunlight that came through
 /// the texel to them (transmittance exp(-tau), science.md section 1), reflected where the sun stands on the eye's side,
 /// else transmitted; and skylight in the same way.
 struct LitVoxel {
@@ -42,11 +39,8 @@ struct LitTexel {
   std::vector<LitVoxel> voxels;  ///< one a voxel of the texel
   std::vector<float> groundSun;  ///< transmittance from the ground toward the sun, [y][x]
 };
-/// Marches every voxel and column toward the sun: the voxel's own leaf does not shade it, the march starts one voxel
-/// out. `coarse`, a level of the same texel or null, serves from kNearVoxels on: what hides the sun from farther away
-/// is known by its opacity, which levels keep. Errors: Error::cancelled().
-Result<LitTexel> lightTexel(const Texel& texel, const Texel* coarse, const TexelSky& sky, const TexelLight& light,
-                            const JobContext& job);
-inline constexpr double kNearVoxels = 12.0;
+/// One sweep toward the sun (sweepDepths): what stands between, from one voxel out of each voxel's middle on. `sky`:
+/// sweptSky of the texel. Errors: a sky of another texel; Error::cancelled().
+Result<LitTexel> lightTexel(const Texel& texel, const TexelSky& sky, const TexelLight& light, const JobContext& job);
 
 }  // namespace sward::wither

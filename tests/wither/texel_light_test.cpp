@@ -34,8 +34,7 @@ TEST(TexelLight, ASingleLayerIsLitByTheWholeSunOnItsUpperSideAndLetsItThrough) {
   const Texel texel = layers({5}, 8.0f);
   const TexelSky dark{std::vector<float>(256, 0.0f), std::vector<float>(256, 0.0f), std::vector<float>(256, 0.0f)};
   const glm::dvec3 toSun = glm::normalize(glm::dvec3(0.3, -0.2, 0.9));
-  const LitTexel lit =
-      lightTexel(texel, nullptr, dark, {toSun, glm::dvec3(std::numbers::pi), glm::dvec3(0.0)}, {}).value();
+  const LitTexel lit = lightTexel(texel, dark, {toSun, glm::dvec3(std::numbers::pi), glm::dvec3(0.0)}, {}).value();
   ASSERT_EQ(lit.voxels.size(), 256u);
   for (const LitVoxel& voxel : lit.voxels) {
     // Irradiance pi cos, over pi; nothing stands above, and the voxel does not shade itself.
@@ -51,7 +50,7 @@ TEST(TexelLight, LeavesBelowAreShadedByBeersLaw) {
   const Texel texel = layers({2, 9}, 24.0f);
   const TexelSky dark{std::vector<float>(512, 0.0f), std::vector<float>(512, 0.0f), std::vector<float>(256, 0.0f)};
   const glm::dvec3 toSun = glm::normalize(glm::dvec3(1.0, 0.4, 0.6));
-  const LitTexel lit = lightTexel(texel, nullptr, dark, {toSun, glm::dvec3(1.0), glm::dvec3(0.0)}, {}).value();
+  const LitTexel lit = lightTexel(texel, dark, {toSun, glm::dvec3(1.0), glm::dvec3(0.0)}, {}).value();
   for (std::size_t i = 0; i < texel.size(); ++i) {
     const double expected = texel.places()[i].z == 2 ? std::exp(-24.0 / 16.0) : 1.0;
     EXPECT_NEAR(lit.voxels[i].sun, expected, 1e-6);
@@ -60,45 +59,21 @@ TEST(TexelLight, LeavesBelowAreShadedByBeersLaw) {
 
 TEST(TexelLight, ALeafInTheOpenSeesTheSkyThatItsSidesFace) {
   const Texel texel = layers({5}, 1e-6f);
-  const TexelSky sky = marchedSky(texel, {}).value();
+  const TexelSky sky = sweptSky(texel, {}).value();
   // All of the cosine-weighted upper hemisphere comes to the upper side, and the ground sees it all.
   for (const float front : sky.front) EXPECT_NEAR(front, 1.0, 1e-4);
   for (const float back : sky.back) EXPECT_NEAR(back, 0.0, 1e-6);
   for (const float ground : sky.ground) EXPECT_NEAR(ground, 1.0, 1e-4);
-  const LitTexel lit = lightTexel(texel, nullptr, sky, {{0.0, 0.0, 1.0}, glm::dvec3(0.0), glm::dvec3(2.0)}, {}).value();
+  const LitTexel lit = lightTexel(texel, sky, {{0.0, 0.0, 1.0}, glm::dvec3(0.0), glm::dvec3(2.0)}, {}).value();
   EXPECT_NEAR(lit.voxels.front().front.g, 2.0 * 0.4, 1e-3);
   EXPECT_NEAR(lit.voxels.front().back.g, 2.0 * 0.3, 1e-3);
 }
 
-TEST(TexelLight, AFinerLevelLooksItsSkyUpAndKeepsItsInclination) {
-  std::vector<Texel::Entry> entries;
-  for (int y = 0; y < 16; ++y)
-    for (int x = 0; x < 16; ++x) {
-      Voxel upright = levelLeaf(1e-6f);
-      upright.normal = {1.0f, 0.0f, 0.0f};
-      upright.spread = {1e-6f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
-      entries.push_back({{x, y, 10}, upright});
-    }
-  const Texel fine = Texel::fromEntries({16, 16, 1.0, 1.0}, std::move(entries)).value();
-  std::vector<Texel::Entry> coarse;
-  for (int y = 0; y < 8; ++y)
-    for (int x = 0; x < 8; ++x) coarse.push_back({{x, y, 5}, levelLeaf(1e-6f)});
-  const Texel half = Texel::fromEntries({8, 8, 1.0, 1.0}, std::move(coarse)).value();
-  const TexelSky sky = finerSky(fine, half, marchedSky(half, {}).value(), {}).value();
-  // An upright leaf sees half of the sky with either side.
-  for (std::size_t i = 0; i < fine.size(); ++i) {
-    EXPECT_NEAR(sky.front[i], 0.5, 1e-3);
-    EXPECT_NEAR(sky.back[i], 0.5, 1e-3);
-  }
-  const Texel other = layers({1}, 1.0f);
-  EXPECT_FALSE(finerSky(half, other, marchedSky(other, {}).value(), {}).ok());
-}
-
 TEST(TexelLight, ASunUnderTheHorizonLightsNothingAndDenseLeavesStayFinite) {
   const Texel texel = layers({0, 3, 15}, 3e7f);
-  const TexelSky sky = marchedSky(texel, {}).value();
+  const TexelSky sky = sweptSky(texel, {}).value();
   for (const glm::dvec3 toSun : {glm::dvec3(0.0, 0.6, -0.8), glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, 1.0)}) {
-    const LitTexel lit = lightTexel(texel, nullptr, sky, {toSun, glm::dvec3(3.0), glm::dvec3(0.1)}, {}).value();
+    const LitTexel lit = lightTexel(texel, sky, {toSun, glm::dvec3(3.0), glm::dvec3(0.1)}, {}).value();
     for (const LitVoxel& voxel : lit.voxels) {
       EXPECT_TRUE(std::isfinite(voxel.front.r + voxel.front.g + voxel.back.b + voxel.sun));
       EXPECT_GE(voxel.front.g, 0.0f);
@@ -109,34 +84,12 @@ TEST(TexelLight, ASunUnderTheHorizonLightsNothingAndDenseLeavesStayFinite) {
   }
 }
 
-TEST(TexelLight, WhatIsFarIsMarchedThroughACoarseLevel) {
-  // 64 layers; leaves fill the block, so that the level of a quarter is the same medium.
-  std::vector<Texel::Entry> fine, coarse;
-  for (int z = 0; z < 64; ++z)
-    for (int y = 0; y < 32; ++y)
-      for (int x = 0; x < 32; ++x) fine.push_back({{x, y, z}, levelLeaf(3.0f)});
-  for (int z = 0; z < 16; ++z)
-    for (int y = 0; y < 8; ++y)
-      for (int x = 0; x < 8; ++x) coarse.push_back({{x, y, z}, levelLeaf(3.0f)});
-  const Texel texel = Texel::fromEntries({32, 64, 1.0, 2.0}, std::move(fine)).value();
-  const Texel quarter = Texel::fromEntries({8, 16, 1.0, 2.0}, std::move(coarse)).value();
-  const TexelSky dark{std::vector<float>(texel.size(), 0.0f), std::vector<float>(texel.size(), 0.0f),
-                      std::vector<float>(1024, 0.0f)};
-  const TexelLight light{glm::normalize(glm::dvec3(0.4, 0.3, 0.8)), glm::dvec3(1.0), glm::dvec3(0.0)};
-  const LitTexel all = lightTexel(texel, nullptr, dark, light, {}).value();
-  const LitTexel far = lightTexel(texel, &quarter, dark, light, {}).value();
-  // The same medium gives the same depth to rounding; both stop at a depth of 8.
-  for (std::size_t i = 0; i < texel.size(); i += 97) EXPECT_NEAR(far.voxels[i].sun, all.voxels[i].sun, 4e-4);
-  EXPECT_NEAR(far.groundSun[5], all.groundSun[5], 4e-4);
-  EXPECT_NEAR(all.groundSun[5], std::exp(-6.0), 1e-5);
-}
-
 TEST(TexelLight, ThreadsGiveTheSameBytes) {
   const Texel texel = layers({2, 9, 11}, 5.0f);
   JobContext one, four;
   one.threads = 1;
   four.threads = 4;
-  const TexelSky a = marchedSky(texel, one).value(), b = marchedSky(texel, four).value();
+  const TexelSky a = sweptSky(texel, one).value(), b = sweptSky(texel, four).value();
   EXPECT_EQ(a.front, b.front);
   EXPECT_EQ(a.back, b.back);
   EXPECT_EQ(a.ground, b.ground);

@@ -288,12 +288,10 @@ constexpr const char* kSummary =
     "that the reference's dull leaves lack. voxels is the picture against the reference in the texels' own light. They "
     "do not add up, since errors of different steps also cancel.";
 
-/// Views by name, of sizes.views.
-std::vector<SpeedView> viewsOf(const TexelRenderSizes& sizes, double sideM) {
+std::vector<SpeedView> viewsOf(const std::vector<std::string>& names, double sideM) {
   std::vector<SpeedView> views{{"down", 90.0, kNearM}, {"45", 45.0, kNearM}, grazingView(sideM)};
-  std::erase_if(views, [&](const SpeedView& view) {
-    return std::find(sizes.views.begin(), sizes.views.end(), view.name) == sizes.views.end();
-  });
+  std::erase_if(views,
+                [&](const SpeedView& view) { return std::find(names.begin(), names.end(), view.name) == names.end(); });
   return views;
 }
 
@@ -322,14 +320,16 @@ Result<Section> measureTexelRender(const SectionInput& input, const TexelRenderS
     SWARD_ASSIGN(const Degree degree, makeDegree(input, sizes, degrees[i], baker, quiet));
     step("light", 0.3);
     SWARD_ASSIGN(const std::vector<Drawer> drawers, makeDrawers(degree, quiet));
-    const std::vector<SpeedView> views = viewsOf(sizes, degree.layerGround->tileSideM());
+    const bool last = i + 1 == degrees.size();
+    const std::vector<SpeedView> views =
+        viewsOf(last ? sizes.views : sizes.otherViews, degree.layerGround->tileSideM());
     double done = 0.4;
     for (const SpeedView& view : views) {
       step("view " + view.name, done);
       SWARD_TRY(addView(degree, view, drawers, section, quiet));
       done += 0.3 / static_cast<double>(views.size());
     }
-    if (!sizes.causes || i + 1 < degrees.size() || drawers.size() < 2) continue;
+    if (!sizes.causes || !last || drawers.size() < 2) continue;
     step("causes", done);
     SWARD_TRY(addCauses(degree, views, drawers[1], section, quiet));
   }

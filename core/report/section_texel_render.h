@@ -25,13 +25,14 @@ namespace sward::report {
 Result<Section> texelRenderSection(const SectionInput& input, const JobContext& job);
 
 struct TexelRenderSizes {
-  int width = 320, height = 180;              ///< pixels
+  int width = 256, height = 144;              ///< pixels
   int samples = 16;                           ///< of the references
   int causeSamples = 6;                       ///< of each of two references of the causes, which are half as wide
   int runs = 5;                               ///< timed
   std::vector<int> columns{128, 64, 32};      ///< falling, each a half of one before
   std::vector<double> weatherings{0.0, 0.6};  ///< where the project has not withered
-  std::vector<std::string> views{"down", "45", "grazing"};
+  std::vector<std::string> views{"down", "45", "grazing"};  ///< of the last degree
+  std::vector<std::string> otherViews{"45"};                ///< of those before
   bool causes = true;
 };
 /// The same at any size.

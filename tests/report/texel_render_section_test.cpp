@@ -68,7 +68,7 @@ TEST(TexelRender, RowsAreWhatThePicturesShow) {
       {"cause_sun_disc", 2}, {"cause_bounces", 2}};
   EXPECT_EQ(rows, expected);
   // The reference, each level's and the layers' pictures and differences, the layers' reference; of a view and degree.
-  EXPECT_EQ(measured->strips.size(), 4U);
+  EXPECT_EQ(measured->strips.size(), 3U);
   for (const Strip& strip : measured->strips) EXPECT_EQ(strip.pictures.size(), 8U) << strip.title;
 
   const auto write = [&](const Section& section) {

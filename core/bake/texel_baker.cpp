@@ -129,6 +129,10 @@ TexelBaker::~TexelBaker() = default;
 TexelBaker::TexelBaker(TexelBaker&&) noexcept = default;
 TexelBaker& TexelBaker::operator=(TexelBaker&&) noexcept = default;
 
+Result<std::vector<TexelBake::Level>> texelLevels(wither::Texel finest, const JobContext& job) {
+  return makeLevels(std::move(finest), job);
+}
+
 wither::TexelGrid texelGridOf(double sideM, double heightM, int columns) {
   constexpr int kBrick = wither::TexelGrid::kBrick;
   // A power of two of bricks, so that levels can halve them as often as the columns: a texel of one level alone would

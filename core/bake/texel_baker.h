@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace sward::bake {
 
@@ -41,6 +42,9 @@ class TexelBaker {
   struct Impl;
   std::unique_ptr<Impl> m_impl;
 };
+
+/// A texel and its halves, finest first, with what of the sky they see. Errors: Error::cancelled().
+Result<std::vector<TexelBake::Level>> texelLevels(wither::Texel finest, const JobContext& job);
 
 /// The grid of a project's texel: its patch, voxels as nearly cubes as layers that can be halved to one brick allow.
 wither::TexelGrid texelGridOf(double sideM, double heightM, int columns);

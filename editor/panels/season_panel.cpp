@@ -154,7 +154,6 @@ void SeasonPanel::playControls(PanelContext& context) {
           {px(84.0f), 0.0f}))
     context.edits.run("season.play");
   logItem("season.play");
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Show the season pass; the project stays as it is  (Space)");
   ImGui::SameLine(0.0f, px(4.0f));
   if (iconButton("season.stop", icon::kStop, "Back to the project's own weathering degree", "", play.at.has_value()))
     context.edits.run("season.stop");
@@ -171,7 +170,9 @@ void SeasonPanel::playControls(PanelContext& context) {
 
 void SeasonPanel::degree(PanelContext& context) {
   const SeasonPlay& play = context.ui.season;
-  const double shown = play.at ? play.weathering : context.project->wither.weathering;
+  // Play stops anywhere between two whole per cent: nobody wants to read or keep more.
+  const double paused = std::round(100.0 * play.weathering) / 100.0;
+  const double shown = play.at ? paused : context.project->wither.weathering;
   double value = shown;
   NumberStyle style = fieldLook("weathering", project::percent(0.0, 1.0), shown).number;
   style.caption = "Weathering";
@@ -186,9 +187,8 @@ void SeasonPanel::degree(PanelContext& context) {
                                     : "The project's weathering degree");
   if (!play.at) return;
   ImGui::SameLine(0.0f, px(6.0f));
-  const double weathering = play.weathering;
   if (ImGui::Button("Keep")) {
-    set(context, weathering);
+    set(context, paused);
     release(context);
   }
   logItem("season.keep");

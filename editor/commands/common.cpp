@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <utility>
 
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
@@ -140,6 +141,12 @@ JobContext ProgressBar::job() {
   return job;
 }
 
+void ProgressBar::line(const std::string& text) {
+  const std::scoped_lock lock(m_mutex);
+  if (std::exchange(m_drawn, false)) std::fputs("\r\033[K", stderr);
+  say(m_program, text);
+}
+
 void ProgressBar::show(const std::string& stage, double fraction) {
   const std::scoped_lock lock(m_mutex);
   m_fraction = std::max(m_fraction, fraction);
@@ -151,7 +158,7 @@ void ProgressBar::show(const std::string& stage, double fraction) {
   const int full = static_cast<int>(m_fraction * kCells);
   const double spent = std::chrono::duration<double>(now - m_start).count();
   const std::string left =
-      m_fraction > 0.02 && spent > 1.0 ? ", " + fixed(spent / m_fraction - spent, 0) + " s left" : "";
+      m_fraction > 0.02 && spent > 1.0 ? ", " + leftText(spent / m_fraction - spent) + " left" : "";
   const std::string bar =
       std::string(static_cast<std::size_t>(full), '#') + std::string(static_cast<std::size_t>(kCells - full), '.');
   std::fprintf(stderr, "\r\033[K[%s] %3d %%%s  %s", bar.c_str(), static_cast<int>(100.0 * m_fraction), left.c_str(),
@@ -209,6 +216,12 @@ std::string bytesText(std::uint64_t bytes) {
   if (bytes < 1024) return std::to_string(bytes) + " bytes";
   if (bytes < std::uint64_t{1024} * 1024) return fixed(static_cast<double>(bytes) / 1024.0, 1) + " KiB";
   return fixed(static_cast<double>(bytes) / (1024.0 * 1024.0), 1) + " MiB";
+}
+
+std::string leftText(double seconds) {
+  if (seconds < 100.0) return fixed(seconds, 0) + " s";
+  if (seconds < 6000.0) return fixed(seconds / 60.0, 0) + " min";
+  return fixed(seconds / 3600.0, 1) + " h";
 }
 
 std::string bakeText(const bake::BakeReport& report) {

@@ -2,8 +2,10 @@
 
 #include "bake/asset_hashes.h"
 #include "bake/keys.h"
+#include "bake/payload.h"
 #include "bake/plants.h"
 #include "bake/soil.h"
+#include "bake/texel_payload.h"
 #include "bake/withering.h"
 #include "project/value_hash.h"
 #include "wither/points.h"
@@ -14,15 +16,19 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <list>
+#include <optional>
 #include <utility>
 #include <vector>
 
 namespace sward::bake {
 namespace {
 
-constexpr int kTexelVersion = 1;  ///< raise it when texels change for the same project
-constexpr int kCoarsest = 8;      ///< columns of the coarsest level: a voxel is then as wide as a tuft
-constexpr int kSkyColumns = 64;   ///< levels up to this march to the sky, finer ones look it up
+constexpr int kRestVersion = 1;   ///< raise it when what texels are aged from changes for the same project
+constexpr int kTexelVersion = 2;  ///< the same of the texels
+constexpr const char* kRestKind = "rest";
+constexpr int kCoarsest = 8;     ///< columns of the coarsest level: a voxel is then as wide as a tuft
+constexpr int kSkyColumns = 64;  ///< levels up to this march to the sky, finer ones look it up
 /// Bent blades and the round of a splat's edge reach a little over the tallest plant.
 constexpr double kHeadroom = 1.02;
 
@@ -34,14 +40,11 @@ project::Project atRest(const project::Project& project) {
   return rest;
 }
 
-/// What every weathering degree is aged from.
+/// What is held of a sward.
 struct Rest {
   base::Hash128 key;
-  double sideM = 1.0, heightM = 1.0;
-  wither::TexelGrid grid;
-  std::vector<wither::Strand> strands;
-  wither::Points points;
-  std::vector<glm::vec3> soil;
+  TexelRest value;
+  std::uint64_t storedBytes = 0;
 };
 
 Result<base::Hash128> restKey(const project::Project& project, AssetHashes& assets) {
@@ -50,7 +53,7 @@ Result<base::Hash128> restKey(const project::Project& project, AssetHashes& asse
   settings.sun = glm::dvec3(0.0, 0.0, 1.0);
   SWARD_ASSIGN(const GroundKeys keys, groundKeys(atRest(project), {}, settings, assets));
   base::Hasher hasher;
-  hasher.add(std::string_view("texel")).add(keys.patch).add(keys.of(trace::LayerSet::Slices).surface);
+  hasher.add(std::string_view("rest")).add(kRestVersion).add(keys.patch).add(keys.of(trace::LayerSet::Slices).surface);
   hasher.add(keys.of(trace::LayerSet::Ground).surface).add(project.wither.texel.resolution);
   hasher.add(project.wither.texel.proportion);
   hasher.add(project.wither.ageing.variation).add(project.wither.body.droopVariation);
@@ -58,14 +61,11 @@ Result<base::Hash128> restKey(const project::Project& project, AssetHashes& asse
   return hasher.finish();
 }
 
-Result<Rest> makeRest(const project::Project& project, const base::Hash128& key, const JobContext& job) {
+Result<TexelRest> makeRest(const project::Project& project, const JobContext& job) {
   const int columns = project.wither.texel.resolution;
-  Rest rest;
-  rest.key = key;
+  TexelRest rest;
   SWARD_ASSIGN(const scene::Patch patch, growPatch(atRest(project)));
-  rest.sideM = patch.sideM;
-  rest.heightM = patch.heightM * kHeadroom;
-  rest.grid = texelGridOf(rest.sideM, rest.heightM, columns);
+  rest.grid = texelGridOf(patch.sideM, patch.heightM * kHeadroom, columns);
   SWARD_ASSIGN(wither::PatchStrands strands, wither::strandsOf(patch, project.wither, project.patch.seed));
   SWARD_ASSIGN(const wither::VoxelisedPatch voxels, wither::voxelise(patch, rest.grid, &strands, job));
   SWARD_ASSIGN(rest.points, wither::texelToPoints(voxels.texel, voxels.attachments, strands.strands,
@@ -73,6 +73,14 @@ Result<Rest> makeRest(const project::Project& project, const base::Hash128& key,
   rest.strands = std::move(strands.strands);
   SWARD_ASSIGN(rest.soil, soilColours(project, columns));
   return rest;
+}
+
+/// Damaged entries that went unnoticed so far: blades of samples that the project has not.
+bool fits(const TexelRest& rest, const project::Project& project) {
+  const auto samples = static_cast<int>(sampleCount(project));
+  return rest.grid.columns == project.wither.texel.resolution &&
+         std::all_of(rest.strands.begin(), rest.strands.end(),
+                     [&](const wither::Strand& strand) { return strand.sample < samples; });
 }
 
 /// Splatting is linear: samples that are denser than their share are mingled by the leaf area of their points.
@@ -112,21 +120,51 @@ double secondsSince(std::chrono::steady_clock::time_point& start) {
 
 struct TexelBaker::Impl {
   AssetHashes assets;
-  std::vector<Rest> held;  ///< the last kHeld: one of every quality
+  std::list<Rest> held;  ///< the last kHeld: one of every quality
   static constexpr std::size_t kHeld = 3;
   wither::Points moved;
 
-  Result<const Rest*> rest(const project::Project& project, const JobContext& job) {
+  Result<const Rest*> rest(const project::Project& project, const JobContext& job, DiskCache* disk,
+                           TexelReport& report) {
     SWARD_ASSIGN(const base::Hash128 key, restKey(project, assets));
     const auto found = std::find_if(held.begin(), held.end(), [&](const Rest& rest) { return rest.key == key; });
     if (found != held.end()) {
-      std::rotate(held.begin(), found, found + 1);
-      return &held.front();
+      held.splice(held.begin(), held, found);
+      report.rest = TexelReport::Rest::Held;
+    } else {
+      SWARD_ASSIGN(Rest made, newRest(project, key, job, disk, report));
+      held.push_front(std::move(made));
+      if (held.size() > kHeld) held.resize(kHeld);
     }
-    SWARD_ASSIGN(Rest made, makeRest(project, key, job));
-    held.insert(held.begin(), std::move(made));
-    if (held.size() > kHeld) held.resize(kHeld);
+    report.restBytes = held.front().storedBytes;
     return &held.front();
+  }
+
+  /// From disk, or made and stored there.
+  static Result<Rest> newRest(const project::Project& project, const base::Hash128& key, const JobContext& job,
+                              DiskCache* disk, TexelReport& report) {
+    Rest rest{key, {}, 0};
+    if (disk != nullptr) {
+      const auto payload = disk->get(kRestKind, key);
+      auto value = payload ? fromPayload<TexelRest>(*payload) : std::nullopt;
+      if (value && fits(*value, project)) {
+        report.rest = TexelReport::Rest::FromDisk;
+        rest.value = std::move(*value);
+        rest.storedBytes = payload->size();
+        return rest;
+      }
+    }
+    report.rest = TexelReport::Rest::Made;
+    SWARD_ASSIGN(rest.value, makeRest(project, job));
+    // Loops that were cancelled leave ranges out without saying so.
+    if (job.cancelled()) return Error::cancelled();
+    if (disk == nullptr) return rest;
+    const std::vector<std::byte> payload = payloadOf(rest.value);
+    rest.storedBytes = payload.size();
+    if (const auto stored = disk->put(kRestKind, key, payload); !stored.ok()) {
+      report.warnings.push_back(stored.error().text());
+    }
+    return rest;
   }
 };
 
@@ -166,11 +204,12 @@ Result<base::Hash128> TexelBaker::key(const project::Project& project) {
 }
 
 Result<std::shared_ptr<const TexelBake>> TexelBaker::texels(const project::Project& project, const JobContext& job,
-                                                            TexelReport* report) {
+                                                            TexelReport* report, DiskCache* disk) {
   SWARD_TRY(project::requireValid(project));
   auto start = std::chrono::steady_clock::now();
-  SWARD_ASSIGN(const Rest* rest, m_impl->rest(project, job));
   TexelReport done;
+  SWARD_ASSIGN(const Rest* held, m_impl->rest(project, job, disk, done));
+  const TexelRest* rest = &held->value;
   done.restSeconds = secondsSince(start);
   SWARD_ASSIGN(const Ageing ageing, ageingOf(project));
   wither::Points& moved = m_impl->moved;

@@ -121,11 +121,11 @@ fs::path cacheFolder(const Program& program) {
   return program.common.cacheFolder.empty() ? bake::defaultCacheFolder() : fs::path(program.common.cacheFolder);
 }
 
-bake::Baker openBaker(const Program& program) {
+bake::Baker openBaker(const Program& program, const bake::Baker::Options& options) {
   auto cache = bake::DiskCache::open(cacheFolder(program));
-  if (cache.ok()) return bake::Baker(std::move(cache).value());
+  if (cache.ok()) return bake::Baker(std::move(cache).value(), options);
   warn(program, cache.error().text() + " Going on without one: nothing is kept for the next run.");
-  return bake::Baker();
+  return bake::Baker(std::nullopt, options);
 }
 
 ProgressBar::ProgressBar(const Program& program)
@@ -233,6 +233,21 @@ std::string bakeText(const bake::BakeReport& report) {
   if (counts[3] > 0) text += ", " + std::to_string(counts[3]) + " not needed";
   if (rays > 0) text += ", " + fixed(1e-6 * static_cast<double>(rays), 1) + " million rays";
   return text + ", in " + secondsText(report.seconds);
+}
+
+std::string nodeText(const bake::NodeReport& node) {
+  const std::string name = "  " + node.kind + (node.what.empty() ? "" : ", " + node.what) + ": ";
+  switch (node.state) {
+    case bake::NodeReport::State::Baked:
+      return name + "baked in " + secondsText(node.seconds) + ", " + bytesText(node.bytes);
+    case bake::NodeReport::State::FromMemory:
+      return name + "from memory";
+    case bake::NodeReport::State::FromDisk:
+      return name + "from the cache in " + secondsText(node.seconds) + ", " + bytesText(node.bytes);
+    case bake::NodeReport::State::Skipped:
+      return name + "not needed";
+  }
+  return name;
 }
 
 Json bakeJson(const bake::BakeReport& report) {

@@ -63,7 +63,7 @@ Result<project::Project> loadProject(const Program& program, const std::string& 
 Result<void> checkProject(const Program& program, const project::Project& project);
 
 /// A baker on the cache that the options name; on none, with a warning, when that folder cannot be used.
-bake::Baker openBaker(const Program& program);
+bake::Baker openBaker(const Program& program, const bake::Baker::Options& options = {});
 std::filesystem::path cacheFolder(const Program& program);
 
 /// A bar on a terminal; silent elsewhere and with --quiet. Ends its line when it goes.
@@ -121,6 +121,8 @@ std::string leftText(double seconds);
 
 /// One sentence for people about what a bake did, and the same as JSON with every node.
 std::string bakeText(const bake::BakeReport& report);
+/// The same about one node.
+std::string nodeText(const bake::NodeReport& node);
 Json bakeJson(const bake::BakeReport& report);
 
 }  // namespace sward::editor

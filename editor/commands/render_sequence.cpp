@@ -129,11 +129,22 @@ Result<std::string> keyOf(const SequencePlan& plan, project::Project at, bake::B
   return hasher.finish().hex();
 }
 
+/// A sequence asks for every moment once: finished texels would only push others out of the cache.
+bake::Baker::Options bakerOptions() {
+  bake::Baker::Options options;
+  options.storeTexels = false;
+  return options;
+}
+
 /// Draws the frames of a plan one after the other, with one renderer and one baker.
 class SequencePainter {
  public:
   SequencePainter(Program& program, const SequencePlan& plan, gpu::Context& context)
-      : m_program(program), m_plan(plan), m_context(context), m_baker(openBaker(program)), m_bar(program) {}
+      : m_program(program),
+        m_plan(plan),
+        m_context(context),
+        m_baker(openBaker(program, bakerOptions())),
+        m_bar(program) {}
 
   Result<std::vector<DoneFrame>> draw(bool force) {
     SWARD_TRY(findWhole(force));

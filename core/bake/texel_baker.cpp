@@ -7,6 +7,7 @@
 #include "bake/soil.h"
 #include "bake/texel_payload.h"
 #include "bake/withering.h"
+#include "base/check.h"
 #include "project/value_hash.h"
 #include "wither/points.h"
 #include "wither/pose.h"
@@ -40,10 +41,13 @@ project::Project atRest(const project::Project& project) {
   return rest;
 }
 
-/// What is held of a sward.
+/// What every weathering degree of a sward is aged from.
 struct Rest {
   base::Hash128 key;
-  TexelRest value;
+  wither::TexelGrid grid;
+  std::vector<wither::Strand> strands;
+  wither::Points points;
+  std::vector<glm::vec3> soil;
   std::uint64_t storedBytes = 0;
 };
 
@@ -65,20 +69,34 @@ Result<TexelRest> makeRest(const project::Project& project, const JobContext& jo
   const int columns = project.wither.texel.resolution;
   TexelRest rest;
   SWARD_ASSIGN(const scene::Patch patch, growPatch(atRest(project)));
-  rest.grid = texelGridOf(patch.sideM, patch.heightM * kHeadroom, columns);
+  const wither::TexelGrid grid = texelGridOf(patch.sideM, patch.heightM * kHeadroom, columns);
   SWARD_ASSIGN(wither::PatchStrands strands, wither::strandsOf(patch, project.wither, project.patch.seed));
-  SWARD_ASSIGN(const wither::VoxelisedPatch voxels, wither::voxelise(patch, rest.grid, &strands, job));
-  SWARD_ASSIGN(rest.points, wither::texelToPoints(voxels.texel, voxels.attachments, strands.strands,
-                                                  project.wither.texel.proportion, project.patch.seed, job));
+  SWARD_ASSIGN(wither::VoxelisedPatch voxels, wither::voxelise(patch, grid, &strands, job));
+  rest.texel = std::move(voxels.texel);
+  rest.attachments = std::move(voxels.attachments);
   rest.strands = std::move(strands.strands);
   SWARD_ASSIGN(rest.soil, soilColours(project, columns));
   return rest;
 }
 
-/// Damaged entries that went unnoticed so far: blades of samples that the project has not.
+/// From what is stored to what is held.
+Result<Rest> heldRest(const project::Project& project, const base::Hash128& key, TexelRest stored,
+                      std::uint64_t storedBytes, const JobContext& job) {
+  Rest rest;
+  rest.key = key;
+  rest.grid = stored.texel.grid();
+  SWARD_ASSIGN(rest.points, wither::texelToPoints(stored.texel, stored.attachments, stored.strands,
+                                                  project.wither.texel.proportion, project.patch.seed, job));
+  rest.strands = std::move(stored.strands);
+  rest.soil = std::move(stored.soil);
+  rest.storedBytes = storedBytes;
+  return rest;
+}
+
+/// What load() cannot know: blades of samples that the project has, voxels of its resolution.
 bool fits(const TexelRest& rest, const project::Project& project) {
   const auto samples = static_cast<int>(sampleCount(project));
-  return rest.grid.columns == project.wither.texel.resolution &&
+  return rest.texel.grid().columns == project.wither.texel.resolution &&
          std::all_of(rest.strands.begin(), rest.strands.end(),
                      [&](const wither::Strand& strand) { return strand.sample < samples; });
 }
@@ -143,28 +161,28 @@ struct TexelBaker::Impl {
   /// From disk, or made and stored there.
   static Result<Rest> newRest(const project::Project& project, const base::Hash128& key, const JobContext& job,
                               DiskCache* disk, TexelReport& report) {
-    Rest rest{key, {}, 0};
     if (disk != nullptr) {
       const auto payload = disk->get(kRestKind, key);
       auto value = payload ? fromPayload<TexelRest>(*payload) : std::nullopt;
       if (value && fits(*value, project)) {
         report.rest = TexelReport::Rest::FromDisk;
-        rest.value = std::move(*value);
-        rest.storedBytes = payload->size();
-        return rest;
+        return heldRest(project, key, std::move(*value), payload->size(), job);
       }
     }
     report.rest = TexelReport::Rest::Made;
-    SWARD_ASSIGN(rest.value, makeRest(project, job));
+    SWARD_ASSIGN(const TexelRest made, makeRest(project, job));
     // Loops that were cancelled leave ranges out without saying so.
     if (job.cancelled()) return Error::cancelled();
-    if (disk == nullptr) return rest;
-    const std::vector<std::byte> payload = payloadOf(rest.value);
-    rest.storedBytes = payload.size();
-    if (const auto stored = disk->put(kRestKind, key, payload); !stored.ok()) {
-      report.warnings.push_back(stored.error().text());
+    const std::vector<std::byte> payload = payloadOf(made);
+    if (disk != nullptr) {
+      if (const auto stored = disk->put(kRestKind, key, payload); !stored.ok()) {
+        report.warnings.push_back(stored.error().text());
+      }
     }
-    return rest;
+    // What the disk gives back, whether there is one or not: texels must not depend on it.
+    auto stored = fromPayload<TexelRest>(payload);
+    SWARD_CHECK(stored.has_value());
+    return heldRest(project, key, std::move(*stored), payload.size(), job);
   }
 };
 
@@ -208,8 +226,7 @@ Result<std::shared_ptr<const TexelBake>> TexelBaker::texels(const project::Proje
   SWARD_TRY(project::requireValid(project));
   auto start = std::chrono::steady_clock::now();
   TexelReport done;
-  SWARD_ASSIGN(const Rest* held, m_impl->rest(project, job, disk, done));
-  const TexelRest* rest = &held->value;
+  SWARD_ASSIGN(const Rest* rest, m_impl->rest(project, job, disk, done));
   done.restSeconds = secondsSince(start);
   SWARD_ASSIGN(const Ageing ageing, ageingOf(project));
   wither::Points& moved = m_impl->moved;

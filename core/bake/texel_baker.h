@@ -22,7 +22,7 @@ struct TexelReport {
   double levelSeconds = 0.0;  ///< coarser levels and skylight
   std::size_t points = 0, voxels = 0;
   std::uint64_t bytes = 0;            ///< of the levels, in memory
-  std::uint64_t restBytes = 0;        ///< on disk, where it was read or stored; else 0
+  std::uint64_t restBytes = 0;        ///< as stored
   std::vector<std::string> warnings;  ///< such as a full cache disk
 };
 

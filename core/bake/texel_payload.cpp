@@ -39,21 +39,6 @@ bool loadShares(base::ByteReader& in, std::vector<float>& shares) {
   return in.ok() && std::isfinite(most) && most >= 0.0f;
 }
 
-void saveGrid(base::ByteWriter& out, const wither::TexelGrid& grid) {
-  out.value(grid.columns);
-  out.value(grid.layers);
-  out.value(grid.sideM);
-  out.value(grid.heightM);
-}
-
-bool loadGrid(base::ByteReader& in, wither::TexelGrid& grid) {
-  in.value(grid.columns);
-  in.value(grid.layers);
-  in.value(grid.sideM);
-  in.value(grid.heightM);
-  return in.ok() && wither::checkGrid(grid).ok();
-}
-
 std::size_t columnsOf(const wither::TexelGrid& grid) {
   return static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.columns);
 }
@@ -106,23 +91,28 @@ bool loadStrands(base::ByteReader& in, std::vector<wither::Strand>& strands) {
   return first == veins.size();
 }
 
-bool consistent(const wither::Points& points, std::size_t strands) {
-  const std::size_t count = points.size();
-  const bool sizes = points.normals.size() == count && points.tangents.size() == count &&
-                     points.spread.size() == count && points.diffuse.size() == count &&
-                     points.transmitted.size() == count && points.specular.size() == count &&
-                     points.areaM2.size() == count && points.attachments.size() == count;
-  return sizes && std::all_of(points.attachments.begin(), points.attachments.end(), [&](const auto& attachment) {
-           return attachment.strand >= -1 && attachment.strand < static_cast<std::int64_t>(strands);
+bool consistent(const TexelRest& rest) {
+  const auto strands = static_cast<std::int64_t>(rest.strands.size());
+  return (rest.attachments.empty() || rest.attachments.size() == rest.texel.size()) &&
+         rest.soil.size() == columnsOf(rest.texel.grid()) &&
+         std::all_of(rest.attachments.begin(), rest.attachments.end(), [&](const wither::Attachment& attachment) {
+           return attachment.strand >= -1 && attachment.strand < strands && std::isfinite(attachment.s);
          });
 }
 
-bool loadLevel(base::ByteReader& in, TexelBake::Level& level) {
+bool loadTexel(base::ByteReader& in, wither::Texel& texel) {
   std::vector<std::byte> packed;
   in.array(packed);
   const auto parsed = wither::PackedTexel::parse(packed);
   if (!in.ok() || !parsed.ok()) return false;
-  level.texel = std::make_shared<const wither::Texel>(parsed->unpack({}));
+  texel = parsed->unpack({});
+  return true;
+}
+
+bool loadLevel(base::ByteReader& in, TexelBake::Level& level) {
+  wither::Texel texel;
+  if (!loadTexel(in, texel)) return false;
+  level.texel = std::make_shared<const wither::Texel>(std::move(texel));
   const bool sky =
       loadShares(in, level.sky.front) && loadShares(in, level.sky.back) && loadShares(in, level.sky.ground);
   return sky && level.sky.front.size() == level.texel->size() && level.sky.back.size() == level.texel->size() &&
@@ -132,35 +122,18 @@ bool loadLevel(base::ByteReader& in, TexelBake::Level& level) {
 }  // namespace
 
 void save(base::ByteWriter& out, const TexelRest& rest) {
-  saveGrid(out, rest.grid);
+  out.array(wither::PackedTexel::pack(rest.texel, {}).serialised());
+  out.array(rest.attachments);
   saveStrands(out, rest.strands);
-  const wither::Points& points = rest.points;
-  out.array(points.positions);
-  out.array(points.normals);
-  out.array(points.tangents);
-  out.array(points.spread);
-  out.array(points.diffuse);
-  out.array(points.transmitted);
-  out.array(points.specular);
-  out.array(points.areaM2);
-  out.array(points.attachments);
   out.array(rest.soil);
 }
 
 bool load(base::ByteReader& in, TexelRest& rest) {
-  if (!loadGrid(in, rest.grid) || !loadStrands(in, rest.strands)) return false;
-  wither::Points& points = rest.points;
-  in.array(points.positions);
-  in.array(points.normals);
-  in.array(points.tangents);
-  in.array(points.spread);
-  in.array(points.diffuse);
-  in.array(points.transmitted);
-  in.array(points.specular);
-  in.array(points.areaM2);
-  in.array(points.attachments);
+  if (!loadTexel(in, rest.texel)) return false;
+  in.array(rest.attachments);
+  if (!loadStrands(in, rest.strands)) return false;
   in.array(rest.soil);
-  return in.ok() && consistent(points, rest.strands.size()) && rest.soil.size() == columnsOf(rest.grid);
+  return in.ok() && consistent(rest);
 }
 
 void save(base::ByteWriter& out, const TexelBake& bake) {

@@ -8,13 +8,14 @@ namespace sward::bake {
 
 /// Cache payloads of texels; see payload.h. What load() takes is whole: every index in its array's range, every array
 /// as long as the others say.
+/// wither::PackedTexel holds voxels in 20 bytes, with its errors: a tenth of a per cent of density, half of one of 255
+/// steps in the root of colours, a thousandth of a radian of normals. Which voxels there are is exact.
 ///
-/// The rest is stored to the last bit: 100 bytes a point and 24 a point of the strands' veins.
+/// The rest takes 8 bytes a voxel more for what it hangs on, and 24 a point of the strands' veins, to the last bit.
 void save(base::ByteWriter& out, const TexelRest& rest);
 bool load(base::ByteReader& in, TexelRest& rest);
 
-/// Finished texels take 24 bytes a voxel: wither::PackedTexel's 20, with its errors (a tenth of a per cent of density,
-/// one of 255 steps in the root of colours), and skylight in 16 bits of the largest share.
+/// Finished texels take 4 bytes a voxel more for skylight, in 16 bits of the largest share.
 void save(base::ByteWriter& out, const TexelBake& bake);
 bool load(base::ByteReader& in, TexelBake& bake);
 

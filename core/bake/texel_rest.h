@@ -1,6 +1,5 @@
 #pragma once
 
-#include "wither/points.h"
 #include "wither/strand.h"
 #include "wither/texel.h"
 
@@ -10,12 +9,12 @@
 
 namespace sward::bake {
 
-/// What every weathering degree of a sward is aged from: its blades at rest as points, in the grid that they become
-/// voxels of.
+/// A sward at rest as voxels, and the strands that they hang on: what takes long to make of what every weathering
+/// degree is aged from. Its points (wither::texelToPoints) follow from it.
 struct TexelRest {
-  wither::TexelGrid grid;
+  wither::Texel texel;
+  std::vector<wither::Attachment> attachments;  ///< one a stored voxel, or none
   std::vector<wither::Strand> strands;
-  wither::Points points;
   std::vector<glm::vec3> soil;  ///< TexelBake::soil
 };
 

@@ -132,6 +132,7 @@ Result<std::shared_ptr<const TexelBake>> Baker::Impl::madeTexels(const GroundReq
   }
   auto stored = fromPayload<TexelBake>(payload);
   SWARD_CHECK(stored.has_value());
+  stored->points = made.points;
   node.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return std::make_shared<const TexelBake>(std::move(*stored));
 }

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -73,10 +74,28 @@ class AgeingColours {
     return {{sum[0], sum[1], sum[2]}, {sum[3], sum[4], sum[5]}};
   }
 
+  /// The same in single precision, for very many leaves: reflectance, transmittance.
+  std::array<float, 6> channels(float chlorophyllShare, float waterShare) const {
+    const float u = std::sqrt(limited(chlorophyllShare)) * static_cast<float>(kChlorophyllNodes - 1);
+    const float v = limited(waterShare) * static_cast<float>(kWaterNodes - 1);
+    const auto i = std::min(static_cast<std::int32_t>(u), static_cast<std::int32_t>(kChlorophyllNodes) - 2);
+    const auto j = std::min(static_cast<std::int32_t>(v), static_cast<std::int32_t>(kWaterNodes) - 2);
+    const float x = u - static_cast<float>(i), y = v - static_cast<float>(j);
+    const Node* low = m_nodes.data() + static_cast<std::size_t>(j) * kChlorophyllNodes + static_cast<std::size_t>(i);
+    const Node* high = low + kChlorophyllNodes;
+    const float a = (1.0f - x) * (1.0f - y), b = x * (1.0f - y), c = (1.0f - x) * y, d = x * y;
+    std::array<float, 6> sum;
+    for (std::size_t k = 0; k < sum.size(); ++k) {
+      sum[k] = a * low[0][k] + b * low[1][k] + c * high[0][k] + d * high[1][k];
+    }
+    return sum;
+  }
+
   std::size_t bytes() const { return m_nodes.size() * sizeof(Node); }
 
  private:
   static double limited(double share) { return share > 0.0 ? std::min(share, 1.0) : 0.0; }
+  static float limited(float share) { return share > 0.0f ? std::min(share, 1.0f) : 0.0f; }
 
   using Node = std::array<float, 6>;  ///< reflectance, transmittance
   std::vector<Node> m_nodes;          ///< rows of kChlorophyllNodes, from no water to all of it

@@ -38,16 +38,14 @@ float exp2Of(float x) {
   return p * std::bit_cast<float>((static_cast<std::int32_t>(n) + 127) << 23);
 }
 
-Channels channelsOf(const leaf::LeafColour& colour, float filling) {
-  const auto value = [](double v) { return static_cast<float>(v); };
-  return {value(colour.reflectance.r),
-          value(colour.reflectance.g),
-          value(colour.reflectance.b),
-          value(colour.transmittance.r),
-          value(colour.transmittance.g),
-          value(colour.transmittance.b),
-          filling,
-          filling};
+/// (colour / fresh) to the power of `exponent`, with the binary logarithms of `fresh`. Loops of all channels, each
+/// short enough to become vector instructions.
+Channels powersOf(const Channels& colours, const Channels& logFresh, float exponent) {
+  Channels logs, powers;
+  for (std::size_t c = 0; c < logs.size(); ++c) logs[c] = colours[c] > kDarkest ? colours[c] : kDarkest;
+  for (std::size_t c = 0; c < logs.size(); ++c) logs[c] = log2Of(logs[c]);
+  for (std::size_t c = 0; c < logs.size(); ++c) powers[c] = exp2Of(exponent * (logs[c] - logFresh[c]));
+  return powers;
 }
 
 }  // namespace
@@ -55,19 +53,18 @@ Channels channelsOf(const leaf::LeafColour& colour, float filling) {
 AgeColour ageColour(const leaf::AgeingColours& colours) {
   // Copies of the function share one table.
   const auto table = std::make_shared<const leaf::AgeingColours>(colours);
-  Channels fresh = channelsOf((*table)(1.0, 1.0), 1.0f);
-  for (float& channel : fresh) channel = std::max(channel, kDarkest);
+  const std::array<float, 6> freshLeaf = table->channels(1.0f, 1.0f);
+  Channels fresh{};  // logarithms
+  for (std::size_t c = 0; c < freshLeaf.size(); ++c) fresh[c] = log2Of(std::max(freshLeaf[c], kDarkest));
   return [table, fresh](glm::vec3& diffuse, glm::vec3& transmitted, const Season::Shares& shares) {
     if (shares.chlorophyll >= 1.0 && shares.water >= 1.0) return;
-    const double green = std::clamp(std::min(shares.chlorophyll, shares.water), 0.0, 1.0);
-    const auto exponent = static_cast<float>(kLastingTint + (1.0 - kLastingTint) * green);
-    const Channels now = channelsOf((*table)(shares.chlorophyll, shares.water), 0.0f);
+    const auto chlorophyll = static_cast<float>(shares.chlorophyll), water = static_cast<float>(shares.water);
+    const float green = std::clamp(std::min(chlorophyll, water), 0.0f, 1.0f);
+    const float exponent = static_cast<float>(kLastingTint) + (1.0f - static_cast<float>(kLastingTint)) * green;
+    const std::array<float, 6> now = table->channels(chlorophyll, water);
     const Channels own{diffuse.r, diffuse.g, diffuse.b, transmitted.r, transmitted.g, transmitted.b, 1.0f, 1.0f};
-    Channels aged;
-    for (std::size_t c = 0; c < aged.size(); ++c) {
-      const float colour = own[c] > kDarkest ? own[c] : kDarkest;
-      aged[c] = now[c] * exp2Of(exponent * log2Of(colour / fresh[c]));
-    }
+    Channels aged = powersOf(own, fresh, exponent);
+    for (std::size_t c = 0; c < now.size(); ++c) aged[c] *= now[c];
     for (int c = 0; c < 3; ++c) {
       const float r = std::max(aged[static_cast<std::size_t>(c)], 0.0f);
       // What lets no light through, wood or petals, does not begin to.

@@ -26,7 +26,7 @@ namespace sward::bake {
 namespace {
 
 constexpr int kRestVersion = 1;   ///< raise it when what texels are aged from changes for the same project
-constexpr int kTexelVersion = 3;  ///< the same of the texels
+constexpr int kTexelVersion = 4;  ///< the same of the texels
 constexpr const char* kRestKind = "rest";
 constexpr int kCoarsest = 8;  ///< columns of the coarsest level: a voxel is then as wide as a tuft
 /// Bent blades and the round of a splat's edge reach a little over the tallest plant.

@@ -7,7 +7,6 @@
 #include "bake/soil.h"
 #include "bake/texel_payload.h"
 #include "bake/withering.h"
-#include "base/check.h"
 #include "project/value_hash.h"
 #include "wither/points.h"
 #include "wither/pose.h"
@@ -164,18 +163,21 @@ struct TexelBaker::Impl {
       }
     }
     report.rest = TexelReport::Rest::Made;
-    SWARD_ASSIGN(const TexelRest made, makeRest(project, job));
+    SWARD_ASSIGN(TexelRest made, makeRest(project, job));
     // Loops that were cancelled leave ranges out without saying so.
     if (job.cancelled()) return Error::cancelled();
     const std::vector<std::byte> payload = payloadOf(made);
-    if (disk != nullptr) {
-      if (const auto stored = disk->put(kRestKind, key, payload); !stored.ok()) {
-        report.warnings.push_back(stored.error().text());
-      }
-    }
     // What the disk gives back, whether there is one or not: texels must not depend on it.
     auto stored = fromPayload<TexelRest>(payload);
-    SWARD_CHECK(stored.has_value());
+    if (!stored) {  // values that packing has no codes for, which no valid project should give
+      report.warnings.emplace_back("the blades at rest cannot be packed, and are grown anew by the next run");
+      return heldRest(project, key, std::move(made), 0, job);
+    }
+    if (disk != nullptr) {
+      if (const auto kept = disk->put(kRestKind, key, payload); !kept.ok()) {
+        report.warnings.push_back(kept.error().text());
+      }
+    }
     return heldRest(project, key, std::move(*stored), payload.size(), job);
   }
 };
@@ -233,6 +235,7 @@ Result<std::shared_ptr<const TexelBake>> TexelBaker::texels(const project::Proje
                          ageing.colour, moved, job));
   scaleByDensity(project, rest->strands, moved);
   SWARD_ASSIGN(wither::Texel finest, wither::pointsToTexel(moved, rest->grid, project.wither.texel.splatVoxels, job));
+  moved = {};  // hundreds of megabytes, while levels are made
   done.ageSeconds = secondsSince(start);
   TexelBake bake;
   bake.weathering = project.wither.weathering;

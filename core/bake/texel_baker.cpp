@@ -133,7 +133,6 @@ struct TexelBaker::Impl {
   AssetHashes assets;
   std::list<Rest> held;  ///< the last kHeld: one of every quality
   static constexpr std::size_t kHeld = 3;
-  wither::Points moved;
 
   Result<const Rest*> rest(const project::Project& project, const JobContext& job, DiskCache* disk,
                            TexelReport& report) {
@@ -229,8 +228,7 @@ Result<std::shared_ptr<const TexelBake>> TexelBaker::texels(const project::Proje
   SWARD_ASSIGN(const Rest* rest, m_impl->rest(project, job, disk, done));
   done.restSeconds = secondsSince(start);
   SWARD_ASSIGN(const Ageing ageing, ageingOf(project));
-  wither::Points& moved = m_impl->moved;
-  moved = {};
+  wither::Points moved;
   SWARD_TRY(wither::pose(rest->points, rest->strands, ageing.season, project.wither.mingle, project.wither.weathering,
                          ageing.colour, moved, job));
   scaleByDensity(project, rest->strands, moved);

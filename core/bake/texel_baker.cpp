@@ -7,7 +7,6 @@
 #include "bake/soil.h"
 #include "bake/texel_payload.h"
 #include "bake/withering.h"
-#include "base/check.h"
 #include "leaf/ageing.h"
 #include "project/value_hash.h"
 #include "wither/leaf_ageing.h"
@@ -28,7 +27,7 @@ namespace sward::bake {
 namespace {
 
 constexpr int kRestVersion = 1;   ///< raise it when what texels are aged from changes for the same project
-constexpr int kTexelVersion = 4;  ///< the same of the texels
+constexpr int kTexelVersion = 5;  ///< the same of the texels
 constexpr const char* kRestKind = "rest";
 constexpr int kCoarsest = 8;  ///< columns of the coarsest level: a voxel is then as wide as a tuft
 /// Bent blades and the round of a splat's edge reach a little over the tallest plant.
@@ -136,9 +135,7 @@ struct TexelBaker::Impl {
   AssetHashes assets;
   std::list<Rest> held;  ///< the last kHeld: one of every quality
   static constexpr std::size_t kHeld = 3;
-  wither::Points moved;
-  std::optional<leaf::LeafOptions>
-      leaves;  ///< that `colour` was made of: curves do not change it, and it takes longest
+  std::optional<leaf::LeafOptions> leaves;  ///< of `colour`, which curves do not change and which takes longest to make
   wither::AgeColour colour;
 
   Result<wither::AgeColour> colourOf(const project::Project& project) {
@@ -149,7 +146,6 @@ struct TexelBaker::Impl {
     }
     return colour;
   }
-  base::Hash128 movedFrom;  ///< key of the rest that `moved` was last made from: it keeps what no pose changes
 
   Result<const Rest*> rest(const project::Project& project, const JobContext& job, DiskCache* disk,
                            TexelReport& report) {
@@ -179,18 +175,21 @@ struct TexelBaker::Impl {
       }
     }
     report.rest = TexelReport::Rest::Made;
-    SWARD_ASSIGN(const TexelRest made, makeRest(project, job));
+    SWARD_ASSIGN(TexelRest made, makeRest(project, job));
     // Loops that were cancelled leave ranges out without saying so.
     if (job.cancelled()) return Error::cancelled();
     const std::vector<std::byte> payload = payloadOf(made);
-    if (disk != nullptr) {
-      if (const auto stored = disk->put(kRestKind, key, payload); !stored.ok()) {
-        report.warnings.push_back(stored.error().text());
-      }
-    }
     // What the disk gives back, whether there is one or not: texels must not depend on it.
     auto stored = fromPayload<TexelRest>(payload);
-    SWARD_CHECK(stored.has_value());
+    if (!stored) {  // values that packing has no codes for, which no valid project should give
+      report.warnings.emplace_back("the blades at rest cannot be packed, and are grown anew by the next run");
+      return heldRest(project, key, std::move(made), 0, job);
+    }
+    if (disk != nullptr) {
+      if (const auto kept = disk->put(kRestKind, key, payload); !kept.ok()) {
+        report.warnings.push_back(kept.error().text());
+      }
+    }
     return heldRest(project, key, std::move(*stored), payload.size(), job);
   }
 };
@@ -243,12 +242,12 @@ Result<std::shared_ptr<const TexelBake>> TexelBaker::texels(const project::Proje
   done.restSeconds = secondsSince(start);
   SWARD_ASSIGN(const wither::Season season, wither::Season::create(project.wither.ageing, project.wither.body));
   SWARD_ASSIGN(const wither::AgeColour colour, m_impl->colourOf(project));
-  wither::Points& moved = m_impl->moved;
-  if (std::exchange(m_impl->movedFrom, rest->key) != rest->key) moved = {};
+  wither::Points moved;
   SWARD_TRY(wither::pose(rest->points, rest->strands, season, project.wither.mingle, project.wither.weathering, colour,
                          moved, job));
   scaleByDensity(project, rest->strands, moved);
   SWARD_ASSIGN(wither::Texel finest, wither::pointsToTexel(moved, rest->grid, project.wither.texel.splatVoxels, job));
+  moved = {};  // hundreds of megabytes, while levels are made
   done.ageSeconds = secondsSince(start);
   TexelBake bake;
   bake.weathering = project.wither.weathering;

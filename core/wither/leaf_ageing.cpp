@@ -10,7 +10,8 @@
 namespace sward::wither {
 namespace {
 
-/// Nothing that grows is blacker, and none of the model's channels is: tints stay finite.
+/// Nothing that grows is blacker: tints stay finite. A fresh leaf lets through no blue that a display could show; that
+/// channel counts as so dark throughout, since an authored one would go black at the season's first moment otherwise.
 constexpr float kDarkest = 1e-3f;
 
 /// Reflectances and transmittances of three channels, and two to fill vectors.
@@ -64,11 +65,11 @@ AgeColour ageColour(const leaf::AgeingColours& colours) {
     const std::array<float, 6> now = table->channels(chlorophyll, water);
     const Channels own{diffuse.r, diffuse.g, diffuse.b, transmitted.r, transmitted.g, transmitted.b, 1.0f, 1.0f};
     Channels aged = powersOf(own, fresh, exponent);
-    for (std::size_t c = 0; c < now.size(); ++c) aged[c] *= now[c];
+    for (std::size_t c = 0; c < now.size(); ++c) aged[c] *= now[c] > kDarkest ? now[c] : kDarkest;
     for (int c = 0; c < 3; ++c) {
-      const float r = std::max(aged[static_cast<std::size_t>(c)], 0.0f);
+      const float r = aged[static_cast<std::size_t>(c)];
       // What lets no light through, wood or petals, does not begin to.
-      const float t = transmitted[c] > 0.0f ? std::max(aged[static_cast<std::size_t>(c) + 3], 0.0f) : 0.0f;
+      const float t = transmitted[c] > 0.0f ? aged[static_cast<std::size_t>(c) + 3] : 0.0f;
       const float scale = 1.0f / std::max(r + t, 1.0f);
       diffuse[c] = r * scale;
       transmitted[c] = t * scale;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -23,28 +24,30 @@ constexpr std::size_t kGrain = 4096;
 /// Texels of a texture buffer: what Mesa's software renderer and common GPUs take (OpenGL grants 2^16 alone).
 constexpr std::size_t kMostTexels = std::size_t{1} << 27;
 
-std::uint32_t byteOf(double value) {
-  return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0, 1.0) * 255.0));
+/// Of what is not below 0, to the nearest whole number.
+std::uint32_t nearest(float value) {
+  return static_cast<std::uint32_t>(static_cast<std::int32_t>(value + 0.5f));
+}
+
+std::uint32_t byteOf(float value) {
+  return nearest(std::clamp(value, 0.0f, 1.0f) * 255.0f);
 }
 
 /// Two bytes; 0 is kept for no direction: the code of no unit vector, whose coordinates are stored from 1 on.
 std::uint32_t octahedral(const glm::vec3& direction) {
   const float sum = std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
   if (!(sum > 0.0f)) return 0;
-  glm::vec2 p = glm::vec2(direction) / sum;
+  glm::vec2 p = glm::vec2(direction) * (1.0f / sum);
   if (direction.z < 0.0f) {
     p = glm::vec2((1.0f - std::abs(p.y)) * (p.x < 0.0f ? -1.0f : 1.0f),
                   (1.0f - std::abs(p.x)) * (p.y < 0.0f ? -1.0f : 1.0f));
   }
-  const auto code = [](float v) { return static_cast<std::uint32_t>(std::lround(v * 127.0f) + 128); };
+  const auto code = [](float v) { return nearest(std::clamp(v, -1.0f, 1.0f) * 127.0f + 128.0f); };
   return code(p.x) | code(p.y) << 8;
 }
 
-std::uint32_t colour30(const glm::vec3& radiance, double range) {
-  const auto code = [range](float v) {
-    return static_cast<std::uint32_t>(
-        std::lround(std::sqrt(std::clamp(static_cast<double>(v) / range, 0.0, 1.0)) * 1023.0));
-  };
+std::uint32_t colour30(const glm::vec3& radiance, float perRange) {
+  const auto code = [perRange](float v) { return nearest(std::sqrt(std::clamp(v * perRange, 0.0f, 1.0f)) * 1023.0f); };
   return code(radiance.r) | code(radiance.g) << 10 | code(radiance.b) << 20;
 }
 
@@ -54,12 +57,16 @@ double brightest(const wither::TexelLight& light) {
   return std::max({radiance.r, radiance.g, radiance.b, 1e-9});
 }
 
-std::array<std::uint32_t, 4> leafWords(const Voxel& voxel, const wither::LitVoxel& lit, double densityRange,
-                                       double radianceRange) {
-  const std::uint32_t density = std::max(byteOf(std::sqrt(double{voxel.density} / densityRange)), 1u);
-  return {octahedral(voxel.normal) | octahedral(voxel.tangent) << 16, colour30(lit.front, radianceRange),
-          colour30(lit.back, radianceRange),
-          density | byteOf(wither::normalShare(voxel)) << 8 | byteOf(double{voxel.specular} * double{lit.sun}) << 16};
+/// One over the ranges that the words of leaves are kept in.
+struct PerRange {
+  float density = 1.0f, radiance = 1.0f;
+};
+
+std::array<std::uint32_t, 4> leafWords(const Voxel& voxel, float share, const wither::LitVoxel& lit, float sun,
+                                       const PerRange& per) {
+  const std::uint32_t density = std::max(byteOf(std::sqrt(voxel.density * per.density)), 1u);
+  return {octahedral(voxel.normal) | octahedral(voxel.tangent) << 16, colour30(lit.front, per.radiance),
+          colour30(lit.back, per.radiance), density | byteOf(share) << 8 | byteOf(voxel.specular * sun) << 16};
 }
 
 std::size_t leafCount(const bake::TexelBake& bake) {
@@ -87,16 +94,29 @@ Places placesOf(const bake::TexelBake& bake) {
           stored < 0 ? -1 : static_cast<std::int32_t>(firstWord + static_cast<std::size_t>(stored) * kBrickVoxels));
     }
     places.voxels.resize(firstWord + texel.stored().size() * kBrickVoxels, 0);
-    for (std::size_t b = 0; b < texel.stored().size(); ++b) {
-      const Texel::Brick& brick = texel.stored()[b];
-      std::uint32_t index = firstLeaf + brick.first;
-      for (std::size_t v = 0; v < kBrickVoxels; ++v) {
-        if ((brick.mask[v / 64] >> (v % 64) & 1) != 0) places.voxels[firstWord + b * kBrickVoxels + v] = ++index;
+    base::parallelFor({}, texel.stored().size(), 64, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t b = begin; b < end; ++b) {
+        const Texel::Brick& brick = texel.stored()[b];
+        std::uint32_t* words = places.voxels.data() + firstWord + b * kBrickVoxels;
+        std::uint32_t index = firstLeaf + brick.first;
+        for (std::size_t z = 0; z < brick.mask.size(); ++z) {
+          for (std::uint64_t bits = brick.mask[z]; bits != 0; bits &= bits - 1) {
+            words[z * 64 + static_cast<std::size_t>(std::countr_zero(bits))] = ++index;
+          }
+        }
       }
-    }
+    });
     firstLeaf += static_cast<std::uint32_t>(texel.size());
   }
   return places;
+}
+
+float densest(std::span<const Voxel> voxels) {
+  std::vector<float> most((voxels.size() + kGrain - 1) / kGrain, 0.0f);
+  base::parallelFor({}, voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) most[begin / kGrain] = std::max(most[begin / kGrain], voxels[i].density);
+  });
+  return most.empty() ? 0.0f : *std::max_element(most.begin(), most.end());
 }
 
 template <typename T>
@@ -116,9 +136,7 @@ Result<TexelSet> TexelSet::create(std::shared_ptr<const bake::TexelBake> bake) {
   }
   TexelSet set;
   for (const auto& level : bake->levels) {
-    for (const Voxel& voxel : level.texel->voxels()) {
-      set.m_densityRange = std::max(set.m_densityRange, double{voxel.density});
-    }
+    set.m_densityRange = std::max(set.m_densityRange, double{densest(level.texel->voxels())});
   }
   const Places places = placesOf(*bake);
   set.m_levelStarts = places.levelStarts;
@@ -132,31 +150,44 @@ Result<TexelSet> TexelSet::create(std::shared_ptr<const bake::TexelBake> bake) {
 
 Result<void> TexelSet::relight(const wither::TexelLight& light, const JobContext& job) {
   m_radianceRange = brightest(light);
-  std::vector<std::array<std::uint32_t, 4>> leaves;
-  leaves.reserve(leafCount(*m_bake));
-  std::vector<std::uint32_t> soil(m_bake->soil.size());
-  for (std::size_t l = 0; l < m_bake->levels.size(); ++l) {
-    const auto& level = m_bake->levels[l];
-    SWARD_ASSIGN(const wither::LitTexel lit, wither::lightTexel(*level.texel, level.sky, light, job));
-    const std::size_t first = leaves.size();
-    leaves.resize(first + level.texel->size());
+  const PerRange per{static_cast<float>(1.0 / m_densityRange), static_cast<float>(1.0 / m_radianceRange)};
+  const wither::LeafShading shading(light);
+  const std::size_t count = leafCount(*m_bake);
+  const auto leaves = std::make_unique_for_overwrite<std::array<std::uint32_t, 4>[]>(count);
+  std::size_t first = 0;
+  for (const auto& level : m_bake->levels) {
+    SWARD_ASSIGN(const wither::SunReach reach, wither::sunReach(*level.texel, light.toSun, job));
     const std::span<const Voxel> voxels = level.texel->voxels();
     base::parallelFor(job, voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        leaves[first + i] = leafWords(voxels[i], lit.voxels[i], m_densityRange, m_radianceRange);
+        const auto share = static_cast<float>(wither::normalShare(voxels[i]));
+        const wither::LitVoxel lit = shading(voxels[i], share, level.sky.front[i], level.sky.back[i], reach.voxels[i]);
+        leaves[first + i] = leafWords(voxels[i], share, lit, reach.voxels[i], per);
       }
     });
-    for (std::size_t i = 0; l == 0 && i < soil.size(); ++i) {
-      const glm::dvec3 sun = light.sunIrradiance * (std::max(light.toSun.z, 0.0) / std::numbers::pi);
-      const glm::dvec3 irradiance = sun * double{lit.groundSun[i]} + light.skyRadiance * double{level.sky.ground[i]};
-      soil[i] = colour30(glm::vec3(glm::dvec3(m_bake->soil[i]) * irradiance), m_radianceRange);
-    }
+    if (&level == m_bake->levels.data()) setSoil(light, reach.ground, per.radiance);
+    first += voxels.size();
   }
-  m_leaves = bufferOf(leaves);
-  m_leavesView = gpu::Texture::ofBuffer(GL_RGBA32UI, m_leaves);
+  if (job.cancelled()) return Error::cancelled();
+  const std::span<const std::array<std::uint32_t, 4>> words(leaves.get(), count);
+  if (m_leaves.size() == 0) {
+    m_leaves = gpu::Buffer(words.size_bytes());
+    m_leavesView = gpu::Texture::ofBuffer(GL_RGBA32UI, m_leaves);
+  }
+  m_leaves.write(std::as_bytes(words));
+  return {};
+}
+
+void TexelSet::setSoil(const wither::TexelLight& light, std::span<const float> groundSun, float perRange) {
+  const glm::dvec3 sun = light.sunIrradiance * (std::max(light.toSun.z, 0.0) / std::numbers::pi);
+  const std::vector<float>& sky = m_bake->levels.front().sky.ground;
+  std::vector<std::uint32_t> soil(m_bake->soil.size());
+  for (std::size_t i = 0; i < soil.size(); ++i) {
+    const glm::dvec3 irradiance = sun * double{groundSun[i]} + light.skyRadiance * double{sky[i]};
+    soil[i] = colour30(glm::vec3(glm::dvec3(m_bake->soil[i]) * irradiance), perRange);
+  }
   m_soil = bufferOf(soil);
   m_soilView = gpu::Texture::ofBuffer(GL_R32UI, m_soil);
-  return {};
 }
 
 std::uint64_t TexelSet::bytes() const {

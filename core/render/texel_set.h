@@ -7,6 +7,7 @@
 #include "wither/texel_light.h"
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -35,6 +36,8 @@ class TexelSet {
   void bind(GLuint bricks, GLuint voxels, GLuint leaves, GLuint soil) const;
 
  private:
+  void setSoil(const wither::TexelLight& light, std::span<const float> groundSun, float perRange);
+
   std::shared_ptr<const bake::TexelBake> m_bake;
   std::vector<int> m_levelStarts;
   double m_densityRange = 1.0, m_radianceRange = 1.0;

@@ -198,11 +198,11 @@ Result<TexelRows> TexelRows::create(const Texel& texel, const JobContext& job) {
   return rows;
 }
 
-Result<SweptDepths> sweepDepths(const TexelRows& rows, std::span<const float> extinction, const glm::dvec3& l,
-                                const JobContext& job) {
+Result<void> sweepDepths(const TexelRows& rows, std::span<const float> extinction, const glm::dvec3& l,
+                         std::vector<float>& ground, std::span<float> depths, const JobContext& job) {
   const TexelGrid& grid = rows.grid();
   const auto columns = static_cast<std::size_t>(grid.columns);
-  SweptDepths depths{std::vector<float>(rows.size()), std::vector<float>(columns * columns)};
+  ground.resize(columns * columns);
   const Course course = Descent(grid, l).course();
   base::parallelFor(job, columns, kBandRays, [&](std::size_t begin, std::size_t end) {
     Band band(rows, extinction, static_cast<int>(begin), static_cast<int>(end));
@@ -215,14 +215,14 @@ Result<SweptDepths> sweepDepths(const TexelRows& rows, std::span<const float> ex
     for (int layer = grid.layers - 1; layer >= 0 && !job.cancelled(); --layer) {
       const auto z = static_cast<std::size_t>(layer);
       addUntil(course.reads[z]);
-      if (!rows.emptyLayer(layer)) band.read(layer, course.offsets[z], depths.voxels);
+      if (!rows.emptyLayer(layer)) band.read(layer, course.offsets[z], depths);
     }
     addUntil(course.pieces.size());
     std::copy(band.depths().begin(), band.depths().end(),
-              depths.ground.begin() + static_cast<std::ptrdiff_t>(begin * columns));
+              ground.begin() + static_cast<std::ptrdiff_t>(begin * columns));
   });
   if (job.cancelled()) return Error::cancelled();
-  return depths;
+  return {};
 }
 
 }  // namespace sward::wither

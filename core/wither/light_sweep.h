@@ -48,12 +48,6 @@ class TexelRows {
   std::vector<std::uint32_t> m_layers;  ///< voxels of each
 };
 
-/// What lies between a texel's voxels and a light that is infinitely far.
-struct SweptDepths {
-  std::vector<float> voxels;  ///< optical depth above each entry of TexelRows::order()
-  std::vector<float> ground;  ///< above the middle of each column at z = 0, [y][x]
-};
-
 /// The optical depth from every voxel of a texel toward a light, in one sweep from the top layer down.
 ///
 /// One ray a column starts in the middle of its foot on the ground and rises to the light, x and y wrapping. All of
@@ -69,9 +63,11 @@ struct SweptDepths {
 ///
 /// `extinction`: toward the light, one an entry of rows.order(), 1/m. `l`: unit, to the light, l.z > 0. A light so low
 /// that a layer shifts it by more than kMostShift voxels is followed as if it stood that high (some 1 degree). Time
-/// goes with voxels times the columns that the light shifts by a layer. Errors: Error::cancelled().
-Result<SweptDepths> sweepDepths(const TexelRows& rows, std::span<const float> extinction, const glm::dvec3& l,
-                                const JobContext& job);
+/// goes with voxels times the columns that the light shifts by a layer. `depths`: above each entry of rows.order(), of
+/// its size and not where `extinction` is; `ground`: above the middle of each column at z = 0, [y][x], resized. Errors:
+/// Error::cancelled().
+Result<void> sweepDepths(const TexelRows& rows, std::span<const float> extinction, const glm::dvec3& l,
+                         std::vector<float>& ground, std::span<float> depths, const JobContext& job);
 inline constexpr double kMostShift = 64.0;
 
 /// exp(-depth) of a depth from 0 to infinity, to 3e-7 of itself; under exp(-80) it stays there. Cody and Waite's

@@ -8,86 +8,70 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <string>
+#include <span>
 #include <utility>
 
 namespace sward::wither {
 namespace {
 
 constexpr std::size_t kGrain = 4096;
-constexpr int kRings = 3, kPerRing = 5;
-constexpr int kSkyDirections = kRings * kPerRing;
+constexpr std::size_t kRings = 3, kPerRing = 5;
+constexpr std::size_t kSkyDirections = kRings * kPerRing;
 
 /// Directions of equal cosine-weighted solid angle over the upper hemisphere (Malley: the disc, in rings of equal
 /// area), each ring turned against the one below.
 std::array<glm::dvec3, kSkyDirections> skyDirections() {
   std::array<glm::dvec3, kSkyDirections> directions;
-  for (int ring = 0; ring < kRings; ++ring) {
+  for (std::size_t k = 0; k < kSkyDirections; ++k) {
+    const auto ring = static_cast<double>(k / kPerRing), i = static_cast<double>(k % kPerRing);
     const double radius = std::sqrt((ring + 0.5) / kRings);
-    for (int i = 0; i < kPerRing; ++i) {
-      const double azimuth = 2.0 * std::numbers::pi * (i + 0.37 * ring) / kPerRing;
-      directions[static_cast<std::size_t>(ring * kPerRing + i)] = {
-          radius * std::cos(azimuth), radius * std::sin(azimuth), std::sqrt(1.0 - radius * radius)};
-    }
+    const double azimuth = 2.0 * std::numbers::pi * (i + 0.37 * ring) / kPerRing;
+    directions[k] = {radius * std::cos(azimuth), radius * std::sin(azimuth), std::sqrt(1.0 - radius * radius)};
   }
   return directions;
 }
 
-/// A voxel's part of leaves that have its normal, and the irradiance that a unit beam from l gives its two sides.
-struct Facing {
-  float front = 0.0f, back = 0.0f;
-};
-Facing facing(const glm::vec3& normal, float share, const glm::vec3& l) {
-  const float cosine = normal.x * l.x + normal.y * l.y + normal.z * l.z;
-  const float any = 0.25f * (1.0f - share);  // leaves of every direction: half of |n.l| = 1/2 on either side
-  return {share * std::max(cosine, 0.0f) + any, share * std::max(-cosine, 0.0f) + any};
-}
-
-/// What of a voxel counts for light, whatever it comes from: a third of the voxel's bytes, read once a direction.
-struct LeafShape {
-  LeafSection section;
-  glm::vec3 normal;
-  float share;
-};
-
-/// All directions' light over one texel, row by row.
+/// What of a texel's voxels counts for light, wherever it comes from, and what they see of the sky; row by row.
 class SkySweep {
  public:
   SkySweep(const Texel& texel, const TexelRows& rows)
       : m_rows(rows),
-        m_shapes(texel.size()),
-        m_extinction(texel.size()),
         m_front(texel.size(), 0.0f),
         m_back(texel.size(), 0.0f),
         m_ground(static_cast<std::size_t>(texel.grid().columns) * static_cast<std::size_t>(texel.grid().columns),
-                 0.0f) {}
+                 0.0f) {
+    for (std::vector<float>& buffer : m_buffers) buffer.resize(texel.size());
+    for (std::vector<float>& form : m_form) form.resize(texel.size());
+    for (std::vector<float>& side : m_sides) side.resize(texel.size());
+  }
 
   void prepare(const Texel& texel, const JobContext& job) {
-    base::parallelFor(job, m_shapes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    base::parallelFor(job, texel.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const Voxel& voxel = texel.voxels()[m_rows.order()[i]];
-        m_shapes[i] = {LeafSection(voxel), voxel.normal, static_cast<float>(normalShare(voxel))};
+        const std::array<float, 6> form = sectionForm(voxel);
+        for (std::size_t k = 0; k < form.size(); ++k) m_form[k][i] = form[k];
+        const auto share = static_cast<float>(normalShare(voxel));
+        const glm::vec3 n = share * voxel.normal;
+        m_sides[0][i] = n.x, m_sides[1][i] = n.y, m_sides[2][i] = n.z, m_sides[3][i] = 0.25f * (1.0f - share);
       }
     });
   }
 
-  Result<void> add(const glm::dvec3& l, const JobContext& job) {
-    const glm::vec3 toward(l);
-    base::parallelFor(job, m_shapes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) m_extinction[i] = m_shapes[i].section(toward);
+  /// A ring at once: what is known of a voxel is read from memory once for all of its directions.
+  Result<void> add(std::span<const glm::dvec3, kPerRing> ring, const JobContext& job) {
+    base::parallelFor(job, m_front.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t d = 0; d < kPerRing; ++d) setExtinctions(ring[d], m_buffers[d].data(), begin, end);
     });
-    SWARD_ASSIGN(const SweptDepths depths, sweepDepths(m_rows, m_extinction, l, job));
-    constexpr float kEach = 1.0f / kSkyDirections;
-    const auto each = static_cast<float>(1.0 / (kSkyDirections * l.z));
-    base::parallelFor(job, m_shapes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const float seen = each * transmittanceOf(depths.voxels[i]);
-        const Facing sides = facing(m_shapes[i].normal, m_shapes[i].share, toward);
-        m_front[i] += seen * sides.front;
-        m_back[i] += seen * sides.back;
-      }
+    for (std::size_t d = 0; d < kPerRing; ++d) {
+      std::vector<float>& spare = m_buffers.back();
+      SWARD_TRY(sweepDepths(m_rows, m_buffers[d], ring[d], m_depths, spare, job));
+      std::swap(m_buffers[d], spare);
+      addGround();
+    }
+    base::parallelFor(job, m_front.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t d = 0; d < kPerRing; ++d) addSeen(ring[d], m_buffers[d].data(), begin, end);
     });
-    for (std::size_t i = 0; i < m_ground.size(); ++i) m_ground[i] += kEach * transmittanceOf(depths.ground[i]);
     return {};
   }
 
@@ -104,32 +88,41 @@ class SkySweep {
   }
 
  private:
-  const TexelRows& m_rows;
-  std::vector<LeafShape> m_shapes;
-  std::vector<float> m_extinction, m_front, m_back, m_ground;
-};
-
-/// Radiance of leaves that the light reaches with a transmittance of `through`.
-LitVoxel litVoxel(const Voxel& voxel, float skyFront, float skyBack, const TexelLight& light, float through) {
-  const Facing sides = facing(voxel.normal, static_cast<float>(normalShare(voxel)), glm::vec3(light.toSun));
-  const glm::vec3 sun = glm::vec3(light.sunIrradiance / std::numbers::pi) * through;
-  // Irradiance over pi of either side; skyRadiance times the share of the sky that a side sees.
-  const glm::vec3 front = sun * sides.front + glm::vec3(light.skyRadiance) * skyFront;
-  const glm::vec3 back = sun * sides.back + glm::vec3(light.skyRadiance) * skyBack;
-  return {voxel.diffuse * front + voxel.transmitted * back, voxel.diffuse * back + voxel.transmitted * front, through};
-}
-
-/// Toward the sun; a sun at or under the horizon leaves everything dark.
-Result<SweptDepths> sunDepths(const Texel& texel, const TexelRows& rows, const glm::dvec3& l, const JobContext& job) {
-  std::vector<float> extinctions(texel.size());
-  base::parallelFor(job, extinctions.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    const glm::vec3 toward(l);
+  void setExtinctions(const glm::dvec3& l, float* extinctions, std::size_t begin, std::size_t end) const {
+    const auto x = static_cast<float>(l.x), y = static_cast<float>(l.y), z = static_cast<float>(l.z);
+    const float *xx = m_form[0].data(), *xy = m_form[1].data(), *xz = m_form[2].data(), *yy = m_form[3].data(),
+                *yz = m_form[4].data(), *zz = m_form[5].data();
     for (std::size_t i = begin; i < end; ++i) {
-      extinctions[i] = LeafSection(texel.voxels()[rows.order()[i]])(toward);
+      const float square =
+          x * (xx[i] * x + 2.0f * (xy[i] * y + xz[i] * z)) + y * (yy[i] * y + 2.0f * yz[i] * z) + zz[i] * z * z;
+      extinctions[i] = std::sqrt(std::max(square, 0.0f));
     }
-  });
-  return sweepDepths(rows, extinctions, l, job);
-}
+  }
+  void addGround() {
+    constexpr float kEach = 1.0f / kSkyDirections;
+    for (std::size_t i = 0; i < m_ground.size(); ++i) m_ground[i] += kEach * transmittanceOf(m_depths[i]);
+  }
+  void addSeen(const glm::dvec3& l, const float* depths, std::size_t begin, std::size_t end) {
+    const auto each = static_cast<float>(1.0 / (kSkyDirections * l.z));
+    const auto x = static_cast<float>(l.x), y = static_cast<float>(l.y), z = static_cast<float>(l.z);
+    const float *nx = m_sides[0].data(), *ny = m_sides[1].data(), *nz = m_sides[2].data(), *any = m_sides[3].data();
+    float *front = m_front.data(), *back = m_back.data();
+    for (std::size_t i = begin; i < end; ++i) {
+      const float seen = each * transmittanceOf(depths[i]);
+      const float facing = nx[i] * x + ny[i] * y + nz[i] * z;  // leafSides
+      front[i] += seen * (std::max(facing, 0.0f) + any[i]);
+      back[i] += seen * (std::max(-facing, 0.0f) + any[i]);
+    }
+  }
+
+  const TexelRows& m_rows;
+  std::array<std::vector<float>, 6> m_form;   ///< sectionForm
+  std::array<std::vector<float>, 4> m_sides;  ///< the normal times its share, and what falls on either side anyhow
+  /// Extinctions toward a ring's directions, which one after another become depths; and one to spare.
+  std::array<std::vector<float>, kPerRing + 1> m_buffers;
+  std::vector<float> m_depths;  ///< of the ground
+  std::vector<float> m_front, m_back, m_ground;
+};
 
 }  // namespace
 
@@ -137,39 +130,37 @@ Result<TexelSky> sweptSky(const Texel& texel, const JobContext& job) {
   SWARD_ASSIGN(const TexelRows rows, TexelRows::create(texel, job));
   SkySweep sweep(texel, rows);
   sweep.prepare(texel, job);
-  for (const glm::dvec3& l : skyDirections()) SWARD_TRY(sweep.add(l, job));
+  const auto directions = skyDirections();
+  for (std::size_t ring = 0; ring < kRings; ++ring) {
+    SWARD_TRY(sweep.add(std::span(directions).subspan(ring * kPerRing).first<kPerRing>(), job));
+  }
   TexelSky sky = sweep.sky(job);
   if (job.cancelled()) return Error::cancelled();
   return sky;
 }
 
-Result<LitTexel> lightTexel(const Texel& texel, const TexelSky& sky, const TexelLight& light, const JobContext& job) {
-  if (sky.front.size() != texel.size() || sky.back.size() != texel.size()) {
-    return Error::failed("the sky of " + std::to_string(sky.front.size()) + " voxels is not that of a texel of " +
-                             std::to_string(texel.size()),
-                         "texel");
-  }
-  LitTexel lit;
-  lit.voxels.resize(texel.size());
+Result<SunReach> sunReach(const Texel& texel, const glm::dvec3& toSun, const JobContext& job) {
   const auto columns = static_cast<std::size_t>(texel.grid().columns);
-  lit.groundSun.assign(columns * columns, 0.0f);
-  const auto shade = [&](std::size_t i, float through) {
-    lit.voxels[i] = litVoxel(texel.voxels()[i], sky.front[i], sky.back[i], light, through);
-  };
-  if (light.toSun.z > 0.0) {
-    SWARD_ASSIGN(const TexelRows rows, TexelRows::create(texel, job));
-    SWARD_ASSIGN(const SweptDepths depths, sunDepths(texel, rows, light.toSun, job));
-    base::parallelFor(job, texel.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) shade(rows.order()[i], transmittanceOf(depths.voxels[i]));
-    });
-    std::transform(depths.ground.begin(), depths.ground.end(), lit.groundSun.begin(), transmittanceOf);
-  } else {
-    base::parallelFor(job, texel.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) shade(i, 0.0f);
-    });
-  }
+  SunReach reach{std::vector<float>(texel.size(), 0.0f), std::vector<float>(columns * columns, 0.0f)};
+  if (!(toSun.z > 0.0)) return reach;
+  SWARD_ASSIGN(const TexelRows rows, TexelRows::create(texel, job));
+  const std::span<const std::uint32_t> order = rows.order();
+  // Voxels are read in their own order, fast; what is left of each is small enough to be put in rows afterwards.
+  base::parallelFor(job, texel.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    const glm::vec3 l(toSun);
+    for (std::size_t i = begin; i < end; ++i) reach.voxels[i] = sectionToward(texel.voxels()[i], l);
+  });
+  std::vector<float> extinctions(texel.size()), depths(texel.size());
+  base::parallelFor(job, texel.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) extinctions[i] = reach.voxels[order[i]];
+  });
+  SWARD_TRY(sweepDepths(rows, extinctions, toSun, reach.ground, depths, job));
+  base::parallelFor(job, texel.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) reach.voxels[order[i]] = transmittanceOf(depths[i]);
+  });
+  for (float& ground : reach.ground) ground = transmittanceOf(ground);
   if (job.cancelled()) return Error::cancelled();
-  return lit;
+  return reach;
 }
 
 }  // namespace sward::wither

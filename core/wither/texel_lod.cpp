@@ -71,9 +71,7 @@ glm::dvec3 newtonStep(const glm::dmat3& form, const glm::dvec3& x, const glm::dv
 /// error is squared each time; should one of them leave the positive numbers, the first kind goes on.
 void scaleTo(const std::array<double, 6>& spread, const glm::dvec3& sigma, Voxel& voxel) {
   constexpr std::array<std::array<std::size_t, 3>, 3> kAt{{{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}};
-  glm::dvec3 first(spread[0], spread[3], spread[5]);
-  // Leaves too thin for an exponential to notice hide nothing along an axis, and need no S along it.
-  for (int i = 0; i < 3; ++i) first[i] = sigma[i] > 0.0 ? first[i] : 0.0;
+  const glm::dvec3 first(spread[0], spread[3], spread[5]);
   glm::dmat3 form(0.0);  // sigma^2 = x (form x)
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {

@@ -17,12 +17,13 @@ constexpr std::size_t kBricks = 64;  ///< of the coarser texel, made by one task
 
 using Children = std::array<const Voxel*, 8>;  ///< bit 0 of the index x, bit 1 y, bit 2 z; null: empty
 
-/// -ln of the mean of exp(-depth) over four columns; depths of any size.
+/// -ln of the mean of exp(-depth) over four columns; depths of any size: tails of splats are as thin as 1e-30, and the
+/// logarithm of what rounds to 1 would call them nothing.
 double meanDepth(const std::array<double, 4>& depths) {
   const double least = *std::min_element(depths.begin(), depths.end());
-  double sum = 0.0;
-  for (const double depth : depths) sum += std::exp(least - depth);
-  return least - std::log(0.25 * sum);
+  double hidden = 0.0;
+  for (const double depth : depths) hidden -= std::expm1(least - depth);
+  return least - std::log1p(-0.25 * hidden);
 }
 
 /// extinction() along the three axes.
@@ -71,7 +72,9 @@ glm::dvec3 newtonStep(const glm::dmat3& form, const glm::dvec3& x, const glm::dv
 /// error is squared each time; should one of them leave the positive numbers, the first kind goes on.
 void scaleTo(const std::array<double, 6>& spread, const glm::dvec3& sigma, Voxel& voxel) {
   constexpr std::array<std::array<std::size_t, 3>, 3> kAt{{{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}};
-  const glm::dvec3 first(spread[0], spread[3], spread[5]);
+  // An axis along which nothing is to be seen has nothing.
+  glm::dvec3 first(spread[0], spread[3], spread[5]);
+  for (int i = 0; i < 3; ++i) first[i] = sigma[i] > 0.0 ? first[i] : 0.0;
   glm::dmat3 form(0.0);  // sigma^2 = x (form x)
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
@@ -80,7 +83,7 @@ void scaleTo(const std::array<double, 6>& spread, const glm::dvec3& sigma, Voxel
       form[i][j] = 0.625 + (held ? 0.375 * (s * s / (first[i] * first[j])) : 0.0);
     }
   }
-  const glm::dvec3 square = sigma * sigma;
+  const glm::dvec3 square = sigma * sigma;  // above 0 where `first` is
   glm::dvec3 x = first;
   for (int step = 0; step < 40; ++step) {
     const glm::dvec3 reached = form * x;

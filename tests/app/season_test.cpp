@@ -5,11 +5,10 @@
 #include "widgets/item_log.h"
 #include "wither/season.h"
 
-#include <cmath>
-
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <thread>

@@ -17,26 +17,27 @@
 uniform vec3 u_sunIrradiance;
 #endif
 
-uniform isamplerBuffer t_bricks;   // of all levels: where a brick's voxels start in t_voxels; -1: empty
-uniform usamplerBuffer t_voxels;   // 512 a brick: index into t_leaves, from 1; 0: empty
-uniform usamplerBuffer t_leaves;   // four words a voxel, render/texel_set.h
-uniform usamplerBuffer t_soil;     // lit soil of the finest level's columns, as colour30()
+// Of all levels, as render/texel_set.h describes them.
+uniform isamplerBuffer t_bricks;
+uniform usamplerBuffer t_voxels;
+uniform usamplerBuffer t_glosses;
+uniform usamplerBuffer t_soil;
 
 uniform int u_levels;
 uniform uint u_levelStart[8];       // in t_bricks
 uniform int u_columns;             // of level 0
 uniform int u_layers;
-uniform float u_densityRange;      // 1/m, of a stored density of 1
+uniform float u_extinctionRange;   // 1/m, of a stored extinction of 1
 uniform float u_radianceRange;
 uniform float u_highlight;         // its radiance over the sun's irradiance at full gloss
 
 out vec4 o_radiance;
 
-const int kBrick = 8;
-const int kMaxVoxels = 900;         // that a ray may look at
 const float kLevelBiasTexels = 0.8;
+const float kStride = 1.0;         // voxels between two places that a ray looks at
+const float kStrideGrowth = 1.5;   // and so many more where it is nearly opaque
 
-vec3 g_sum = vec3(0.0);  // over the range of radiances
+vec3 g_sum = vec3(0.0);   // over the range of radiances
 float g_left = 1.0;
 
 // Unit vector of two bytes (octahedral); zero for 0.
@@ -54,65 +55,95 @@ vec3 colour30(uint bits) {
   return root * root;
 }
 
-void shade(uint index, vec3 d, float lengthM) {
-  uvec4 leaf = texelFetch(t_leaves, int(index) - 1);
-  vec3 normal = direction16(leaf.x & 0xffffu);
-  vec3 tangent = direction16(leaf.x >> 16);
-  float root = float(leaf.w & 0xffu) / 255.0;
-  float share = float((leaf.w >> 8) & 0xffu) / 255.0;
-  float facing = dot(normal, d);
-  // wither/extinction.h of S = share n n^T + (1 - share) I / 3: a spheroid about the normal.
-  vec2 eigen = (vec2(1.0 - share) + vec2(3.0 * share, 0.0)) / 3.0;
-  vec2 area = eigen * (5.0 + 3.0 * eigen) / 8.0;
-  float extinction = root * root * u_densityRange * sqrt(mix(area.y, area.x, facing * facing));
-  float opacity = 1.0 - transmitted(extinction * lengthM);
-  vec3 colour = colour30(facing <= 0.0 ? leaf.y : leaf.z);
-  // Kajiya and Kay: the cone about the tangent on which the sun's light is reflected.
-  vec2 along = vec2(dot(tangent, -d), dot(tangent, u_sunDirection));
-  vec2 across = sqrt(max(1.0 - along * along, 0.0));
-  float cone = across.x * across.y - along.x * along.y;
-  float gloss = float((leaf.w >> 16) & 0xffu) / 255.0;
-  if (gloss > 0.0 && tangent != vec3(0.0)) {
-    float c = max(cone, 0.0);
-    c *= c * c;  // to the power 24
-    c *= c;
-    c *= c;
-    c *= c;
-    colour += u_sunIrradiance * (gloss * u_highlight * c / u_radianceRange);
-  }
-  g_sum += g_left * opacity * colour;
-  g_left *= 1.0 - opacity;
+// A medium's normal, times 127 and of any length.
+vec3 mediumNormal(uint word) {
+  vec2 p = vec2(float(word & 0xffu), float((word >> 8) & 0xffu)) - 128.0;
+  return vec3(p, 127.0 - abs(p.x) - abs(p.y));
 }
 
-void marchVoxels(vec3 p, vec3 d, vec3 dv, float tEnd, int level, int columns, int layers) {
-  int start = int(u_levelStart[level]);
-  int row = columns / kBrick;
-  vec3 inverse = 1.0 / dv;
-  vec3 ahead = step(0.0, dv);
-  // Just over a face that was met, so that the next cell is found whatever rounding did.
-  float nudge = 1e-3 / max(abs(dv.x), max(abs(dv.y), abs(dv.z)));
+// Five, six and five bits, the square root over the range.
+vec3 colour16(uint bits) {
+  vec3 root = vec3(float(bits & 31u), float((bits >> 5) & 63u), float((bits >> 11) & 31u));
+  root *= vec3(1.0 / 31.0, 1.0 / 63.0, 1.0 / 31.0);
+  return root * root;
+}
+
+// Highlight of the leaf at a place, over the range of radiances. Kajiya and Kay: the cone about the tangent on which the
+// sun's light is reflected.
+vec3 highlight(int place, vec3 d) {
+  uint word = texelFetch(t_glosses, place).r;
+  vec3 tangent = direction16(word & 0xffffu);
+  vec2 along = vec2(dot(tangent, -d), dot(tangent, u_sunDirection));
+  vec2 across = sqrt(max(1.0 - along * along, 0.0));
+  float gloss = tangent == vec3(0.0) ? 0.0 : float(word >> 16) / 255.0;
+  float c = max(across.x * across.y - along.x * along.y, 0.0);
+  c *= c * c;  // to the power 24
+  c *= c;
+  c *= c;
+  c *= c;
+  return u_sunIrradiance * (gloss * u_highlight * c / u_radianceRange);
+}
+
+// A level's voxels along a ray.
+struct Grid {
+  int start;     // in t_bricks
+  int row;       // bricks
+  float columns;
+  vec3 p;        // where t is 0, voxels
+  vec3 dv;       // voxels a metre
+};
+
+// From 0 to tEnd in strides, each of the length of a voxel or some, until the ray is opaque: `lot` in [0, 1) says where
+// in its stride the ray looks, so that the mean of many samples sees every voxel by the length that lies in it.
+// Highlights cost as much as all the rest: those of eight leaves alone are looked at, drawn by the shares that they have
+// in the picture.
+void marchVoxels(Grid grid, vec3 d, float tEnd, float lot, float otherLot) {
+  vec3 inverse = 1.0 / grid.dv;
+  vec3 ahead = step(0.0, grid.dv);
+  float perColumn = 1.0 / grid.columns;
+  float range = u_extinctionRange;
+  float unit = kStride / length(grid.dv);
   float t = 0.0;
-  for (int i = 0; i < kMaxVoxels && t < tEnd && g_left > kTransmittanceEnd; ++i) {
-    vec3 cell = floor(p + dv * (t + nudge));
-    ivec3 at = ivec3(cell);
-    if (at.z < 0 || at.z >= layers) break;  // a shifted ray is out of the block a little early
-    ivec3 brick = at >> 3;
-    brick.xy -= row * ivec2(floor(vec2(brick.xy) / float(row)));
-    int first = texelFetch(t_bricks, start + (brick.z * row + brick.y) * row + brick.x).r;
-    vec3 exits;
-    if (first < 0) {
-      exits = (floor(cell / 8.0) * 8.0 + 8.0 * ahead - p) * inverse;
-    } else {
-      exits = (cell + ahead - p) * inverse;
-    }
-    float next = min(min(exits.x, min(exits.y, exits.z)), tEnd);
-    next = max(next, t + nudge);
-    if (first >= 0) {
-      ivec3 within = at & 7;
-      uint index = texelFetch(t_voxels, first + (within.z * kBrick + within.y) * kBrick + within.x).r;
-      if (index != 0u) shade(index, d, next - t);
-    }
-    t = next;
+  float before = g_left;
+  vec4 firstPicks = before * (1.0 - 0.125 * (vec4(0.0, 1.0, 2.0, 3.0) + otherLot));
+  vec4 lastPicks = firstPicks - 0.5 * before;
+  ivec4 firstPicked = ivec4(0), lastPicked = ivec4(0);
+  while (t < tEnd && g_left > kTransmittanceEnd) {
+    float stride = unit * (1.0 + kStrideGrowth * (1.0 - g_left));
+    float look = t + lot * stride;
+    vec3 at = grid.p + grid.dv * min(look, tEnd);
+    vec3 cell = floor(at);
+    vec2 wrapped = cell.xy - grid.columns * floor((cell.xy + 0.5) * perColumn);
+    ivec3 voxel = ivec3(wrapped, cell.z);
+    ivec3 brick = voxel >> 3;
+    int first = texelFetch(t_bricks, grid.start + (brick.z * grid.row + brick.y) * grid.row + brick.x).r;
+    ivec3 cube = (voxel & 6) << ivec3(2, 4, 6);
+    ivec3 corner = (voxel & 1) << ivec3(0, 1, 2);
+    int place = max(first, 0) + cube.x + cube.y + cube.z + corner.x + corner.y + corner.z;
+    uint word = first < 0 ? 0u : texelFetch(t_voxels, 2 * place).r;
+    // wither/extinction.h: a spheroid about the normal.
+    vec3 normal = mediumNormal(word);
+    float facing = dot(normal, d);
+    float across = float((word >> 16) & 0xffu) * (1.0 / 255.0);
+    float root = float(word >> 24) * (1.0 / 255.0);
+    across *= across;
+    float extinction = root * root * range * sqrt(across + (1.0 - across) * facing * facing / dot(normal, normal));
+    uint leaf = texelFetch(t_voxels, 2 * place + 1).r >> (facing <= 0.0 ? 0 : 16);
+    float left = g_left * transmitted(look < tEnd ? extinction * stride : 0.0);
+    g_sum += (g_left - left) * colour16(leaf);
+    firstPicked = mix(firstPicked, ivec4(place), greaterThanEqual(vec4(g_left), firstPicks));
+    lastPicked = mix(lastPicked, ivec4(place), greaterThanEqual(vec4(g_left), lastPicks));
+    g_left = left;
+    // Over an empty cube of bricks in whole strides: the places that a ray looks at stay even.
+    int power = -min(first + 1, 0);
+    vec3 low = floor(cell * intBitsToFloat((127 - power) << 23)) + ahead;
+    vec3 exits = (low * intBitsToFloat((127 + power) << 23) - at) * inverse;
+    float way = first < 0 ? min(exits.x, min(exits.y, exits.z)) : 0.0;
+    t += stride * max(ceil(way / stride), 1.0);
+  }
+  for (int i = 0; i < 4; ++i) {
+    if (g_left < firstPicks[i]) g_sum += 0.125 * before * highlight(firstPicked[i], d);
+    if (g_left < lastPicks[i]) g_sum += 0.125 * before * highlight(lastPicked[i], d);
   }
 }
 
@@ -123,14 +154,22 @@ vec3 marchShell(Walk walk, vec3 d, float tEnd, bool soilSeen, vec3 random) {
   float voxels = walk.footprint * float(u_columns) * v_tilesPerM;
   int level = clamp(mipLevel(voxels, (1.0 + random.z) * kLevelBiasTexels), 0, u_levels - 1);
   int columns = u_columns >> level;
-  int layers = u_layers >> level;
+  float layers = float(u_layers >> level);
   vec2 place = fract(walk.place + vec2(gridBend(walk.bend.x), gridBend(walk.bend.y)));
-  vec3 perM = vec3(vec2(float(columns)) * v_tilesPerM, float(layers) / v_heightM);
-  // A voxel's box, shifted anew for every sample: their mean has no blocks.
-  vec3 p = vec3(place * float(columns), walk.heightM * perM.z) + random - 0.5;
-  p.z = clamp(p.z, 0.0, float(layers));
-  vec3 along = vec3(d.xy, walk.slopeZ);
-  if (tEnd > 0.0) marchVoxels(p, d, along * perM, tEnd, level, columns, layers);
+  if (tEnd > 0.0) {
+    vec3 perM = vec3(vec2(float(columns)) * v_tilesPerM, layers / v_heightM);
+    Grid grid;
+    grid.start = int(u_levelStart[level]);
+    grid.row = columns >> 3;
+    grid.columns = float(columns);
+    // A voxel's box, shifted anew for every sample: their mean has no blocks.
+    grid.p = vec3(place * grid.columns, walk.heightM * perM.z) + random - 0.5;
+    grid.p.z = clamp(grid.p.z, 0.0, layers);
+    grid.dv = vec3(d.xy, walk.slopeZ) * perM;
+    // A shifted ray is out of the block a little early.
+    float way = ((grid.dv.z < 0.0 ? 0.0 : layers) - grid.p.z) / grid.dv.z - 1e-3 / abs(grid.dv.z);
+    marchVoxels(grid, d, min(tEnd, way), fourthRandom(random), fract(random.x + random.y));
+  }
   vec3 radiance = g_sum;
   if (soilSeen && g_left > kTransmittanceEnd) {
     vec2 foot = fract(place + d.xy * (max(tEnd, 0.0) * v_tilesPerM));

@@ -4,7 +4,7 @@
 #ifndef SWARD_TERRAIN
 #define SWARD_TERRAIN 0
 #endif
-// Of the layers' shaders the ray, the grid's bend, the macro variation and the haze serve here too: a texel is a tile.
+// Of the layers' shaders the ray, the macro variation and the haze serve here too: a texel is a tile.
 #define SWARD_FAMILIES 1
 #include "ground/constants.glsl"
 #include "ground/view.glsl"
@@ -34,6 +34,9 @@ uniform float u_highlight;         // its radiance over the sun's irradiance at 
 out vec4 o_radiance;
 
 const float kLevelBiasTexels = 0.8;
+const float kCellJitter = 0.7;     // tiles, of the places that cells are round
+const float kCellBlurM = 0.06;     // width of the borders between cells
+const float kCellReachM = 0.3;     // how far into the shell a ray is likely to end, at most
 const float kStride = 1.0;         // voxels between two places that a ray looks at
 const float kStrideGrowth = 1.5;   // and so many more where it is nearly opaque
 
@@ -147,6 +150,33 @@ void marchVoxels(Grid grid, vec3 d, float tEnd, float lot, float otherLot) {
   }
 }
 
+// The texel alone repeats at its side, which shows far away as rows. So the ground is cut into cells of about a texel,
+// around places that are shifted at random (Worley 1996), and each cell shows another part of the texel (in the spirit of
+// Heitz and Neyret 2018, who blend). A ray has one cell, that over which it is likely to end; blurring its place by the
+// sample's lot lets leaves of both sides mix on borders. Only the nearest four places are looked at: what lies outside
+// them shifts a border. The light is that of the texel, hence no turns. `place` in tiles; gives a shift in tiles.
+vec2 cellShift(vec2 place) {
+  vec2 corner = floor(place - 0.5);
+  float nearest = 1e9;
+  uvec2 chosen = uvec2(0u);
+  for (int i = 0; i < 4; ++i) {
+    vec2 cell = corner + vec2(float(i & 1), float(i >> 1));
+    vec2 wrapped = cell - v_mapSize * floor((cell + 0.5) * v_mapInverse);
+    uvec2 v = uvec2(wrapped) * 1664525u + 1013904223u;
+    v.x += v.y * 1664525u;
+    v.y += v.x * 1664525u;
+    v ^= v >> 16u;
+    v.x += v.y * 1664525u;
+    v.y += v.x * 1664525u;
+    v ^= v >> 16u;
+    vec2 off = cell + 0.5 + kCellJitter * (vec2(v & 0xffffu) / 65536.0 - 0.5) - place;
+    float far = dot(off, off);
+    chosen = far < nearest ? v : chosen;
+    nearest = min(nearest, far);
+  }
+  return vec2(chosen >> 16u) / 65536.0;
+}
+
 // What a walk through the shell gathers, and the soil where it ends on it: radiance before the macro variation.
 vec3 marchShell(Walk walk, vec3 d, float tEnd, bool soilSeen, vec3 random) {
   float before = g_left;
@@ -155,7 +185,13 @@ vec3 marchShell(Walk walk, vec3 d, float tEnd, bool soilSeen, vec3 random) {
   int level = clamp(mipLevel(voxels, (1.0 + random.z) * kLevelBiasTexels), 0, u_levels - 1);
   int columns = u_columns >> level;
   float layers = float(u_layers >> level);
-  vec2 place = fract(walk.place + vec2(gridBend(walk.bend.x), gridBend(walk.bend.y)));
+  vec2 place = walk.place;
+  if (v_gridBendTiles > 0.0) {
+    float reach = min(0.5 * max(tEnd, 0.0), kCellReachM);
+    vec2 blur = vec2(fourthRandom(random), fract(random.y + random.z)) - 0.5;
+    place += cellShift(place + (d.xy * reach + blur * kCellBlurM) * v_tilesPerM);
+  }
+  place = fract(place);
   if (tEnd > 0.0) {
     vec3 perM = vec3(vec2(float(columns)) * v_tilesPerM, layers / v_heightM);
     Grid grid;

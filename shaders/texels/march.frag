@@ -94,6 +94,8 @@ struct Grid {
   float columns;
   vec3 p;        // where t is 0, voxels
   vec3 dv;       // voxels a metre
+  float bend;    // of the height, half the second derivative, voxels a squared metre
+  float top;     // highest place in the block
 };
 
 // From 0 to tEnd in strides, each of the length of a voxel or some, until the ray is opaque: `lot` in [0, 1) says where
@@ -101,8 +103,6 @@ struct Grid {
 // Highlights cost as much as all the rest: those of eight leaves alone are looked at, drawn by the shares that they have
 // in the picture.
 void marchVoxels(Grid grid, vec3 d, float tEnd, float lot, float otherLot) {
-  vec3 inverse = 1.0 / grid.dv;
-  vec3 ahead = step(0.0, grid.dv);
   float perColumn = 1.0 / grid.columns;
   float range = u_extinctionRange;
   float unit = kStride / length(grid.dv);
@@ -114,7 +114,8 @@ void marchVoxels(Grid grid, vec3 d, float tEnd, float lot, float otherLot) {
   while (t < tEnd && g_left > kTransmittanceEnd) {
     float stride = unit * (1.0 + kStrideGrowth * (1.0 - g_left));
     float look = t + lot * stride;
-    vec3 at = grid.p + grid.dv * min(look, tEnd);
+    vec3 at = grid.p + grid.dv * look;
+    at.z = clamp(at.z + grid.bend * look * look, 0.0, grid.top);
     vec3 cell = floor(at);
     vec2 wrapped = cell.xy - grid.columns * floor((cell.xy + 0.5) * perColumn);
     ivec3 voxel = ivec3(wrapped, cell.z);
@@ -139,8 +140,9 @@ void marchVoxels(Grid grid, vec3 d, float tEnd, float lot, float otherLot) {
     g_left = left;
     // Over an empty cube of bricks in whole strides: the places that a ray looks at stay even.
     int power = -min(first + 1, 0);
-    vec3 low = floor(cell * intBitsToFloat((127 - power) << 23)) + ahead;
-    vec3 exits = (low * intBitsToFloat((127 + power) << 23) - at) * inverse;
+    vec3 along = vec3(grid.dv.xy, grid.dv.z + 2.0 * grid.bend * look);
+    vec3 face = floor(cell * intBitsToFloat((127 - power) << 23)) + step(0.0, along);
+    vec3 exits = (face * intBitsToFloat((127 + power) << 23) - at) / along;
     float way = first < 0 ? min(exits.x, min(exits.y, exits.z)) : 0.0;
     t += stride * max(ceil(way / stride), 1.0);
   }
@@ -178,7 +180,9 @@ vec2 cellShift(vec2 place) {
 }
 
 // What a walk through the shell gathers, and the soil where it ends on it: radiance before the macro variation.
-vec3 marchShell(Walk walk, vec3 d, float tEnd, bool soilSeen, vec3 random) {
+// `bend`: second derivative of its height, 1 / metres.
+vec3 marchShell(Walk walk, vec3 d, float bend, bool soilSeen, vec3 random) {
+  float tEnd = walk.tEnd;
   float before = g_left;
   g_sum = vec3(0.0);
   float voxels = walk.footprint * float(u_columns) * v_tilesPerM;
@@ -200,11 +204,10 @@ vec3 marchShell(Walk walk, vec3 d, float tEnd, bool soilSeen, vec3 random) {
     grid.columns = float(columns);
     // A voxel's box, shifted anew for every sample: their mean has no blocks.
     grid.p = vec3(place * grid.columns, walk.heightM * perM.z) + random - 0.5;
-    grid.p.z = clamp(grid.p.z, 0.0, layers);
     grid.dv = vec3(d.xy, walk.slopeZ) * perM;
-    // A shifted ray is out of the block a little early.
-    float way = ((grid.dv.z < 0.0 ? 0.0 : layers) - grid.p.z) / grid.dv.z - 1e-3 / abs(grid.dv.z);
-    marchVoxels(grid, d, min(tEnd, way), fourthRandom(random), fract(random.x + random.y));
+    grid.bend = 0.5 * bend * perM.z;
+    grid.top = layers - 1e-3;
+    marchVoxels(grid, d, tEnd, fourthRandom(random), fract(random.x + random.y));
   }
   vec3 radiance = g_sum;
   if (soilSeen && g_left > kTransmittanceEnd) {
@@ -222,11 +225,13 @@ vec3 marchShell(Walk walk, vec3 d, float tEnd, bool soilSeen, vec3 random) {
 }
 
 #if SWARD_TERRAIN
-vec3 marchTerrain(vec3 d, float enterM, bool last, vec3 random, out bool soilSeen) {
+// `leaveM`: where it comes out of the shell's top, as far as the ground's bend tells.
+vec3 marchTerrain(vec3 d, float enterM, bool last, vec3 random, out bool soilSeen, out float leaveM) {
   TerrainWalk w = startTerrain(d, enterM, last);
   soilSeen = w.soilSeen;
+  leaveM = w.walk.tStart + w.walk.tEnd;
   float before = g_left;
-  vec3 radiance = marchShell(w.walk, d, w.walk.tEnd, soilSeen, random) * terrainLight(w);
+  vec3 radiance = marchShell(w.walk, d, w.bend, soilSeen, random) * terrainLight(w);
   float clear = exp(-v_hazePerM * w.walk.tEnter);
   vec3 horizon = texelFetch(t_horizon, int((diamondAngle(d.xy) + 0.25) * kHorizonTexels + random.x)).rgb;
   return mix(horizon * (before - g_left), radiance, clear);
@@ -245,9 +250,13 @@ void main() {
     float enter = inside ? 0.0 : first;
     for (int i = 0; i < 2; ++i) {
       bool soilSeen;
-      seen += marchTerrain(d, enter, last, random, soilSeen);
-      if (soilSeen || g_left <= 0.0 || next <= 0.0) break;
-      enter = next;
+      float leave;
+      seen += marchTerrain(d, enter, last, random, soilSeen, leave);
+      if (soilSeen || g_left <= 0.0) break;
+      // A ray that still sinks toward the ground where it seemed to leave, and does not enter before, is in the shell.
+      bool sinks = d.z - dot(terrainAt(d.xy, leave).xy, d.xy) < 0.0 && !last;
+      enter = sinks && (next <= 0.0 || next > leave) ? leave : next;
+      if (enter <= 0.0) break;
       last = true;
     }
   }
@@ -264,7 +273,7 @@ void main() {
     return;
   }
   bool soilSeen = walk.slopeZ < 0.0;
-  vec3 radiance = marchShell(walk, d, walk.tEnd, soilSeen, random);
+  vec3 radiance = marchShell(walk, d, 0.0, soilSeen, random);
   vec3 seen = soilSeen ? throughHaze(radiance, d, walk.tEnter, random.x)
                        : radiance + g_left * (skyRadiance(d) + sunDisc(d));
   o_radiance = vec4(seen * v_exposure, 1.0);

@@ -173,7 +173,7 @@ TEST(Texels, DoNotRepeatInRowsWhereTheGridIsBent) {
 TEST(Texels, HideTheGroundAndTheSkyAtCrests) {
   auto stage = makeStage();
   stage.renderer->setDaylight(testing::daylightAt(180.0, 50.0), 0.0);
-  const auto dense = [](const glm::ivec3& at) { return at.z < 15 ? 12.0f : 0.0f; };
+  const auto dense = [](const glm::ivec3& at) { return at.z < 5 ? 60.0f : 0.0f; };
   ASSERT_TRUE(stage.renderer->setGround(blockOf(dense, glm::vec3(1.0f, 0.0f, 0.0f))).ok());
   terrain::HeightGrid grid;
   grid.columns = grid.rows = 129;
@@ -181,7 +181,7 @@ TEST(Texels, HideTheGroundAndTheSkyAtCrests) {
   grid.origin = {-64.0, -64.0};
   for (int y = 0; y < grid.rows; ++y)
     for (int x = 0; x < grid.columns; ++x)
-      grid.heights.push_back(static_cast<float>(3.0 * std::sin(0.35 * y) * std::cos(0.2 * x) + 0.05 * y));
+      grid.heights.push_back(static_cast<float>(4.0 * std::sin(0.5 * y) * std::cos(0.2 * x) + 0.1 * y));
   ASSERT_TRUE(stage.renderer->setTerrain(terrain::HeightField::create(std::move(grid)).value()).ok());
   render::Frame frame = frameOf({0.0, -60.0, 9.0}, {0.0, 0.0, 4.0}, 160, 120, 4);
   frame.options.method = render::GroundMethod::Texels;

@@ -1,14 +1,18 @@
 #include "bake/bake.h"
 
 #include "bake/memory_size.h"
+#include "bake/payload.h"
 #include "bake/session.h"
 #include "bake/texel_baker.h"
+#include "bake/texel_payload.h"
 #include "bake/withering.h"
+#include "base/check.h"
 #include "scene/lights.h"
 #include "scene/sun_sky.h"
 #include "trace/canopy_light.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -34,6 +38,10 @@ struct Baker::Impl {
   /// The same for projects that are drawn as texels: no layers, none of the graph's nodes.
   Result<std::shared_ptr<const GroundBake>> texelGround(const GroundRequest& request, const JobContext& job,
                                                         BakeReport* report);
+  Result<std::shared_ptr<const TexelBake>> texelsOf(const GroundRequest& request, const base::Hash128& key,
+                                                    const JobContext& job, BakeReport& report);
+  Result<std::shared_ptr<const TexelBake>> madeTexels(const GroundRequest& request, const base::Hash128& key,
+                                                      const JobContext& job, DiskCache* cache, BakeReport& report);
   Result<base::Hash128> texelKey(const GroundRequest& request);
 
   Options options;
@@ -45,6 +53,7 @@ struct Baker::Impl {
 
 namespace {
 
+constexpr const char* kTexelKind = "texels";
 constexpr int kTexelMap = 128;  ///< cells of a map of texels along each side
 
 /// A sun below the horizon lights nothing, whatever is baked for it; passes follow no shadow beyond their lowest light.
@@ -92,32 +101,81 @@ Result<base::Hash128> Baker::Impl::texelKey(const GroundRequest& request) {
   return texels.key(atQuality(request.project, request.quality));
 }
 
+Result<std::shared_ptr<const TexelBake>> Baker::Impl::madeTexels(const GroundRequest& request, const base::Hash128& key,
+                                                                 const JobContext& job, DiskCache* cache,
+                                                                 BakeReport& report) {
+  NodeReport &rest = report.nodes[0], &node = report.nodes[1];
+  TexelReport made;
+  SWARD_ASSIGN(auto bake, texels.texels(atQuality(request.project, request.quality), job, &made, cache));
+  using From = TexelReport::Rest;
+  rest.state = made.rest == From::Made   ? NodeReport::State::Baked
+               : made.rest == From::Held ? NodeReport::State::FromMemory
+                                         : NodeReport::State::FromDisk;
+  rest.seconds = made.restSeconds;
+  rest.bytes = made.restBytes;
+  report.warnings = std::move(made.warnings);
+  node.state = NodeReport::State::Baked;
+  node.seconds = made.ageSeconds + made.levelSeconds;
+  node.bytes = made.bytes;
+  if (request.quality != Quality::Full) return bake;
+  // What the disk would give back, whether there is one or not: texels are packed there, and a picture must not depend
+  // on where they came from.
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<std::byte> payload = payloadOf(*bake);
+  bake.reset();
+  if (job.cancelled()) return Error::cancelled();
+  node.bytes = payload.size();
+  if (cache != nullptr && options.storeTexels) {
+    if (const auto stored = cache->put(kTexelKind, key, payload); !stored.ok()) {
+      report.warnings.push_back(stored.error().text());
+    }
+  }
+  auto stored = fromPayload<TexelBake>(payload);
+  SWARD_CHECK(stored.has_value());
+  node.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return std::make_shared<const TexelBake>(std::move(*stored));
+}
+
+Result<std::shared_ptr<const TexelBake>> Baker::Impl::texelsOf(const GroundRequest& request, const base::Hash128& key,
+                                                               const JobContext& job, BakeReport& report) {
+  // What is only looked at for a moment is not worth a place on the disk.
+  DiskCache* cache = request.quality == Quality::Full && disk ? &*disk : nullptr;
+  if (cache != nullptr) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto payload = cache->get(kTexelKind, key);
+    auto known = payload ? fromPayload<TexelBake>(*payload) : std::nullopt;
+    if (known && known->grid().columns == request.project.wither.texel.resolution) {
+      NodeReport& node = report.nodes[1];
+      node.state = NodeReport::State::FromDisk;
+      node.bytes = payload->size();
+      node.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      return std::make_shared<const TexelBake>(std::move(*known));
+    }
+  }
+  return madeTexels(request, key, job, cache, report);
+}
+
 Result<std::shared_ptr<const GroundBake>> Baker::Impl::texelGround(const GroundRequest& request, const JobContext& job,
                                                                    BakeReport* report) {
   SWARD_ASSIGN(const base::Hash128 key, texelKey(request));
-  NodeReport node{"texels", "", NodeReport::State::FromMemory};
+  BakeReport done;
+  done.nodes = {{"rest", "", NodeReport::State::Skipped}, {"texels", "", NodeReport::State::FromMemory}};
   auto ground = memory.get<GroundBake>(key);
+  if (ground) done.nodes[1].bytes = memoryBytes(*ground);
   if (!ground) {
-    TexelReport made;
     auto fresh = std::make_shared<GroundBake>();
-    SWARD_ASSIGN(fresh->texels, texels.texels(atQuality(request.project, request.quality), job, &made));
+    SWARD_ASSIGN(fresh->texels, texelsOf(request, key, job, done));
     fresh->patchSideM = fresh->texels->grid().sideM;
     fresh->heightM = fresh->texels->grid().heightM;
     // One tile, the patch itself, and a map of it that only varies in brightness.
     fresh->tiles.resolution = fresh->tiles.patchResolution = 1;
     fresh->map.width = fresh->map.height = kTexelMap;
     fresh->map.tiles.assign(std::size_t{kTexelMap} * kTexelMap, 0);
-    node.state = NodeReport::State::Baked;
-    node.seconds = made.restSeconds + made.ageSeconds + made.levelSeconds;
     memory.put(key, fresh, memoryBytes(*fresh));
     ground = std::move(fresh);
   }
-  node.bytes = memoryBytes(*ground);
-  if (report != nullptr) {
-    *report = {};
-    report->seconds = node.seconds;
-    report->nodes.push_back(std::move(node));
-  }
+  for (const NodeReport& node : done.nodes) done.seconds += node.seconds;
+  if (report != nullptr) *report = std::move(done);
   return ground;
 }
 
@@ -168,7 +226,8 @@ Result<bool> Baker::tracesNothing(const GroundRequest& request) {
 }
 
 bool Baker::holds(const base::Hash128& groundKey) const {
-  return m_impl->memory.contains(groundKey) || (m_impl->disk && m_impl->disk->contains("ground", groundKey));
+  return m_impl->memory.contains(groundKey) || (m_impl->disk && (m_impl->disk->contains("ground", groundKey) ||
+                                                                 m_impl->disk->contains(kTexelKind, groundKey)));
 }
 
 Result<std::shared_ptr<const Inspection>> Baker::inspection(const project::Project& project, const JobContext& job,

@@ -59,6 +59,9 @@ class Baker {
     /// Holds hits, visibility and fits in memory as well, so that colours are edited without the disk; for a program
     /// that bakes the same patch again and again.
     bool holdTraced = false;
+    /// Stores finished texels on disk. Otherwise what they are aged from alone: for a program that asks for many
+    /// moments of a season once each, whose texels would fill the cache. What is there is read in any case.
+    bool storeTexels = true;
   };
   explicit Baker(std::optional<DiskCache> cache = {});
   Baker(std::optional<DiskCache> cache, const Options& options);

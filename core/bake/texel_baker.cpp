@@ -2,9 +2,12 @@
 
 #include "bake/asset_hashes.h"
 #include "bake/keys.h"
+#include "bake/payload.h"
 #include "bake/plants.h"
 #include "bake/soil.h"
+#include "bake/texel_payload.h"
 #include "bake/withering.h"
+#include "base/check.h"
 #include "project/value_hash.h"
 #include "wither/points.h"
 #include "wither/pose.h"
@@ -14,15 +17,18 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <list>
+#include <optional>
 #include <utility>
 #include <vector>
 
 namespace sward::bake {
 namespace {
 
-constexpr int kTexelVersion = 1;  ///< raise it when texels change for the same project
-constexpr int kCoarsest = 8;      ///< columns of the coarsest level: a voxel is then as wide as a tuft
-constexpr int kSkyColumns = 64;   ///< levels up to this march to the sky, finer ones look it up
+constexpr int kRestVersion = 1;   ///< raise it when what texels are aged from changes for the same project
+constexpr int kTexelVersion = 3;  ///< the same of the texels
+constexpr const char* kRestKind = "rest";
+constexpr int kCoarsest = 8;  ///< columns of the coarsest level: a voxel is then as wide as a tuft
 /// Bent blades and the round of a splat's edge reach a little over the tallest plant.
 constexpr double kHeadroom = 1.02;
 
@@ -34,14 +40,14 @@ project::Project atRest(const project::Project& project) {
   return rest;
 }
 
-/// What every weathering degree is aged from.
+/// What every weathering degree of a sward is aged from.
 struct Rest {
   base::Hash128 key;
-  double sideM = 1.0, heightM = 1.0;
   wither::TexelGrid grid;
   std::vector<wither::Strand> strands;
   wither::Points points;
   std::vector<glm::vec3> soil;
+  std::uint64_t storedBytes = 0;
 };
 
 Result<base::Hash128> restKey(const project::Project& project, AssetHashes& assets) {
@@ -50,7 +56,7 @@ Result<base::Hash128> restKey(const project::Project& project, AssetHashes& asse
   settings.sun = glm::dvec3(0.0, 0.0, 1.0);
   SWARD_ASSIGN(const GroundKeys keys, groundKeys(atRest(project), {}, settings, assets));
   base::Hasher hasher;
-  hasher.add(std::string_view("texel")).add(keys.patch).add(keys.of(trace::LayerSet::Slices).surface);
+  hasher.add(std::string_view("rest")).add(kRestVersion).add(keys.patch).add(keys.of(trace::LayerSet::Slices).surface);
   hasher.add(keys.of(trace::LayerSet::Ground).surface).add(project.wither.texel.resolution);
   hasher.add(project.wither.texel.proportion);
   hasher.add(project.wither.ageing.variation).add(project.wither.body.droopVariation);
@@ -58,21 +64,40 @@ Result<base::Hash128> restKey(const project::Project& project, AssetHashes& asse
   return hasher.finish();
 }
 
-Result<Rest> makeRest(const project::Project& project, const base::Hash128& key, const JobContext& job) {
+Result<TexelRest> makeRest(const project::Project& project, const JobContext& job) {
   const int columns = project.wither.texel.resolution;
-  Rest rest;
-  rest.key = key;
+  TexelRest rest;
   SWARD_ASSIGN(const scene::Patch patch, growPatch(atRest(project)));
-  rest.sideM = patch.sideM;
-  rest.heightM = patch.heightM * kHeadroom;
-  rest.grid = texelGridOf(rest.sideM, rest.heightM, columns);
+  const wither::TexelGrid grid = texelGridOf(patch.sideM, patch.heightM * kHeadroom, columns);
   SWARD_ASSIGN(wither::PatchStrands strands, wither::strandsOf(patch, project.wither, project.patch.seed));
-  SWARD_ASSIGN(const wither::VoxelisedPatch voxels, wither::voxelise(patch, rest.grid, &strands, job));
-  SWARD_ASSIGN(rest.points, wither::texelToPoints(voxels.texel, voxels.attachments, strands.strands,
-                                                  project.wither.texel.proportion, project.patch.seed, job));
+  SWARD_ASSIGN(wither::VoxelisedPatch voxels, wither::voxelise(patch, grid, &strands, job));
+  rest.texel = std::move(voxels.texel);
+  rest.attachments = std::move(voxels.attachments);
   rest.strands = std::move(strands.strands);
   SWARD_ASSIGN(rest.soil, soilColours(project, columns));
   return rest;
+}
+
+/// From what is stored to what is held.
+Result<Rest> heldRest(const project::Project& project, const base::Hash128& key, TexelRest stored,
+                      std::uint64_t storedBytes, const JobContext& job) {
+  Rest rest;
+  rest.key = key;
+  rest.grid = stored.texel.grid();
+  SWARD_ASSIGN(rest.points, wither::texelToPoints(stored.texel, stored.attachments, stored.strands,
+                                                  project.wither.texel.proportion, project.patch.seed, job));
+  rest.strands = std::move(stored.strands);
+  rest.soil = std::move(stored.soil);
+  rest.storedBytes = storedBytes;
+  return rest;
+}
+
+/// What load() cannot know: blades of samples that the project has, voxels of its resolution.
+bool fits(const TexelRest& rest, const project::Project& project) {
+  const auto samples = static_cast<int>(sampleCount(project));
+  return rest.texel.grid().columns == project.wither.texel.resolution &&
+         std::all_of(rest.strands.begin(), rest.strands.end(),
+                     [&](const wither::Strand& strand) { return strand.sample < samples; });
 }
 
 /// Splatting is linear: samples that are denser than their share are mingled by the leaf area of their points.
@@ -91,14 +116,9 @@ void scaleByDensity(const project::Project& project, const std::vector<wither::S
 Result<std::vector<TexelBake::Level>> makeLevels(wither::Texel finest, const JobContext& job) {
   SWARD_ASSIGN(std::vector<wither::Texel> texels, wither::levels(finest, kCoarsest, job));
   std::vector<TexelBake::Level> levels(texels.size());
-  for (std::size_t i = texels.size(); i-- > 0;) {
+  for (std::size_t i = 0; i < texels.size(); ++i) {
     levels[i].texel = std::make_shared<const wither::Texel>(std::move(texels[i]));
-    const wither::Texel& texel = *levels[i].texel;
-    if (texel.grid().columns <= kSkyColumns || i + 1 == levels.size()) {
-      SWARD_ASSIGN(levels[i].sky, wither::marchedSky(texel, job));
-    } else {
-      SWARD_ASSIGN(levels[i].sky, wither::finerSky(texel, *levels[i + 1].texel, levels[i + 1].sky, job));
-    }
+    SWARD_ASSIGN(levels[i].sky, wither::sweptSky(*levels[i].texel, job));
   }
   return levels;
 }
@@ -112,21 +132,51 @@ double secondsSince(std::chrono::steady_clock::time_point& start) {
 
 struct TexelBaker::Impl {
   AssetHashes assets;
-  std::vector<Rest> held;  ///< the last kHeld: one of every quality
+  std::list<Rest> held;  ///< the last kHeld: one of every quality
   static constexpr std::size_t kHeld = 3;
   wither::Points moved;
 
-  Result<const Rest*> rest(const project::Project& project, const JobContext& job) {
+  Result<const Rest*> rest(const project::Project& project, const JobContext& job, DiskCache* disk,
+                           TexelReport& report) {
     SWARD_ASSIGN(const base::Hash128 key, restKey(project, assets));
     const auto found = std::find_if(held.begin(), held.end(), [&](const Rest& rest) { return rest.key == key; });
     if (found != held.end()) {
-      std::rotate(held.begin(), found, found + 1);
-      return &held.front();
+      held.splice(held.begin(), held, found);
+      report.rest = TexelReport::Rest::Held;
+    } else {
+      SWARD_ASSIGN(Rest made, newRest(project, key, job, disk, report));
+      held.push_front(std::move(made));
+      if (held.size() > kHeld) held.resize(kHeld);
     }
-    SWARD_ASSIGN(Rest made, makeRest(project, key, job));
-    held.insert(held.begin(), std::move(made));
-    if (held.size() > kHeld) held.resize(kHeld);
+    report.restBytes = held.front().storedBytes;
     return &held.front();
+  }
+
+  /// From disk, or made and stored there.
+  static Result<Rest> newRest(const project::Project& project, const base::Hash128& key, const JobContext& job,
+                              DiskCache* disk, TexelReport& report) {
+    if (disk != nullptr) {
+      const auto payload = disk->get(kRestKind, key);
+      auto value = payload ? fromPayload<TexelRest>(*payload) : std::nullopt;
+      if (value && fits(*value, project)) {
+        report.rest = TexelReport::Rest::FromDisk;
+        return heldRest(project, key, std::move(*value), payload->size(), job);
+      }
+    }
+    report.rest = TexelReport::Rest::Made;
+    SWARD_ASSIGN(const TexelRest made, makeRest(project, job));
+    // Loops that were cancelled leave ranges out without saying so.
+    if (job.cancelled()) return Error::cancelled();
+    const std::vector<std::byte> payload = payloadOf(made);
+    if (disk != nullptr) {
+      if (const auto stored = disk->put(kRestKind, key, payload); !stored.ok()) {
+        report.warnings.push_back(stored.error().text());
+      }
+    }
+    // What the disk gives back, whether there is one or not: texels must not depend on it.
+    auto stored = fromPayload<TexelRest>(payload);
+    SWARD_CHECK(stored.has_value());
+    return heldRest(project, key, std::move(*stored), payload.size(), job);
   }
 };
 
@@ -134,6 +184,10 @@ TexelBaker::TexelBaker() : m_impl(std::make_unique<Impl>()) {}
 TexelBaker::~TexelBaker() = default;
 TexelBaker::TexelBaker(TexelBaker&&) noexcept = default;
 TexelBaker& TexelBaker::operator=(TexelBaker&&) noexcept = default;
+
+Result<std::vector<TexelBake::Level>> texelLevels(wither::Texel finest, const JobContext& job) {
+  return makeLevels(std::move(finest), job);
+}
 
 wither::TexelGrid texelGridOf(double sideM, double heightM, int columns) {
   constexpr int kBrick = wither::TexelGrid::kBrick;
@@ -166,11 +220,11 @@ Result<base::Hash128> TexelBaker::key(const project::Project& project) {
 }
 
 Result<std::shared_ptr<const TexelBake>> TexelBaker::texels(const project::Project& project, const JobContext& job,
-                                                            TexelReport* report) {
+                                                            TexelReport* report, DiskCache* disk) {
   SWARD_TRY(project::requireValid(project));
   auto start = std::chrono::steady_clock::now();
-  SWARD_ASSIGN(const Rest* rest, m_impl->rest(project, job));
   TexelReport done;
+  SWARD_ASSIGN(const Rest* rest, m_impl->rest(project, job, disk, done));
   done.restSeconds = secondsSince(start);
   SWARD_ASSIGN(const Ageing ageing, ageingOf(project));
   wither::Points& moved = m_impl->moved;

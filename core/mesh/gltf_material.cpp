@@ -48,12 +48,13 @@ LeafOptics opticsFrom(const tinygltf::Value& extras) {
 
 }  // namespace
 
-std::uint32_t MaterialReader::use(int material) {
-  const auto found = m_materials.find(material);
+std::uint32_t MaterialReader::use(int material, const std::string& node) {
+  const std::pair key(material, material < 0 ? node : std::string());
+  const auto found = m_materials.find(key);
   if (found != m_materials.end()) return found->second;
-  m_model.materials.push_back(read(material));
+  m_model.materials.push_back(read(material, node));
   const auto index = static_cast<std::uint32_t>(m_model.materials.size() - 1);
-  m_materials.emplace(material, index);
+  m_materials.emplace(key, index);
   return index;
 }
 
@@ -66,9 +67,9 @@ int MaterialReader::texCoord(int material) const {
   return info.texCoord;
 }
 
-Material MaterialReader::read(int material) {
+Material MaterialReader::read(int material, const std::string& node) {
   Material result;
-  result.name = "default";
+  result.name = node.empty() ? "default" : node;
   result.doubleSided = false;
   if (material >= 0) result = fromGltf(material);
   if (m_override) applyOverride(result);

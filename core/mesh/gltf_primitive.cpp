@@ -214,8 +214,8 @@ Error placed(Error error, const std::string& where) {
 }  // namespace
 
 Result<void> appendPrimitive(Gathered& out, const GltfDocument& document, MaterialReader& materials,
-                             const tinygltf::Primitive& primitive, const glm::dmat4& worldFromMesh,
-                             const std::string& where) {
+                             const tinygltf::Primitive& primitive, const std::string& node,
+                             const glm::dmat4& worldFromMesh, const std::string& where) {
   const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
   if (mode < TINYGLTF_MODE_TRIANGLES) {
     ++out.otherPrimitives;
@@ -229,7 +229,7 @@ Result<void> appendPrimitive(Gathered& out, const GltfDocument& document, Materi
 
   const std::uint64_t count = triangleCount(mode, indices->count());
   if (count == 0) return {};
-  const std::uint32_t material = materials.use(primitive.material);
+  const std::uint32_t material = materials.use(primitive.material, node);
   PrimitiveWriter writer(out, *attributes, worldFromMesh, where);
   for (std::uint64_t t = 0; t < count; ++t) {
     std::array<std::uint64_t, 3> corners = cornersOf(mode, t);

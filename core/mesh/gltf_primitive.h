@@ -22,10 +22,11 @@ struct Gathered {
   std::uint64_t otherPrimitives = 0;  ///< points and lines, left out
 };
 
-/// Appends the triangles of one primitive under the transform `worldFromMesh`. `where` names node, mesh and primitive
-/// in messages. A primitive without positions, or of points or lines, adds nothing.
+/// Appends the triangles of one primitive under the transform `worldFromMesh`. `node` names its material if the file
+/// gives none; `where` names node, mesh and primitive in messages. A primitive without positions, or of points or
+/// lines, adds nothing.
 Result<void> appendPrimitive(Gathered& out, const GltfDocument& document, MaterialReader& materials,
-                             const tinygltf::Primitive& primitive, const glm::dmat4& worldFromMesh,
-                             const std::string& where);
+                             const tinygltf::Primitive& primitive, const std::string& node,
+                             const glm::dmat4& worldFromMesh, const std::string& where);
 
 }  // namespace sward::mesh

@@ -124,18 +124,18 @@ class SceneWalk {
     const glm::dmat4 world = worldFromParent * local;
     if (node.mesh >= 0) {
       if (node.skin >= 0) m_out.model.warnings.push_back(where + ": its skin is left out, the mesh stands as modelled");
-      SWARD_TRY(appendMesh(node.mesh, world, where + ", "));
+      SWARD_TRY(appendMesh(node.mesh, node.name, world, where + ", "));
     }
     for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
       m_pending.push_back({*child, world});
     return {};
   }
 
-  Result<void> appendMesh(int index, const glm::dmat4& world, const std::string& where) {
+  Result<void> appendMesh(int index, const std::string& node, const glm::dmat4& world, const std::string& where) {
     const tinygltf::Mesh& mesh = m_document.model.meshes[static_cast<std::size_t>(index)];
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
       const std::string place = where + named("meshes", index, mesh.name) + ".primitives[" + std::to_string(i) + "]";
-      SWARD_TRY(appendPrimitive(m_out, m_document, m_materials, mesh.primitives[i], world, place));
+      SWARD_TRY(appendPrimitive(m_out, m_document, m_materials, mesh.primitives[i], node, world, place));
     }
     return {};
   }
@@ -145,7 +145,7 @@ class SceneWalk {
     if (m_document.model.meshes.empty()) return {};
     m_out.model.warnings.push_back("no node places the meshes; they are taken where they stand");
     for (std::size_t i = 0; i < m_document.model.meshes.size(); ++i) {
-      SWARD_TRY(appendMesh(static_cast<int>(i), glm::dmat4(1.0), ""));
+      SWARD_TRY(appendMesh(static_cast<int>(i), m_document.model.meshes[i].name, glm::dmat4(1.0), ""));
     }
     return {};
   }

@@ -109,7 +109,7 @@ const scene::View* Project::view(const std::string& viewName) const {
 bool Project::operator==(const Project& other) const {
   const auto values = [](const Project& p) {
     return std::tie(p.name, p.patch, p.lights, p.sampling, p.fit, p.tiles, p.leaf, p.wither, p.terrain, p.sun, p.sky,
-                    p.render, p.accuracy, p.views, p.output);
+                    p.render, p.accuracy, p.views, p.output, p.sequence);
   };
   return values(*this) == values(other);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/curve.h"
 #include "base/result.h"
 #include "leaf/options.h"
 #include "lpt/options.h"
@@ -61,6 +62,18 @@ struct Output {
   bool operator==(const Output&) const = default;
 };
 
+/// How a project changes over a sequence of frames. Everything else stays as the project says.
+struct Sequence {
+  int frames = 120;
+  double framesPerSecond = 24.0;
+  /// The season's moment, 0 to 1, over the share of the sequence, 0 (first frame) to 1 (last): may rest or go back.
+  /// Empty: the whole season, evenly. wither.ageing.weathering turns it into the weathering degree.
+  base::Curve season;
+  base::Curve hourUtc;  ///< takes the place of sun.moment.hourUtc in the same way; empty: the project's own hour
+  int days = 0;         ///< that pass from the first frame to the last, from sun.moment's date on
+  bool operator==(const Sequence&) const = default;
+};
+
 /// The document: everything that a .sward file says. Plain values.
 struct Project {
   std::string name;
@@ -78,6 +91,7 @@ struct Project {
   report::AccuracyOptions accuracy;
   std::vector<scene::View> views;
   Output output;
+  Sequence sequence;
   std::filesystem::path folder;  ///< where relative asset paths start; set by load, not saved, not compared by toJson
 
   const scene::View* view(const std::string& name) const;

@@ -45,6 +45,9 @@ void describe(A& a, typename A::template Ref<Project> v) {
       of(Role::Shape).says("Accuracy", "The error that pictures may have; the cheapest bake that keeps it is chosen."));
   a.field("views", v.views, range(0, 1000, "views").says("Views", "Named cameras."));
   a.field("output", v.output, of(Role::Shape).says("Picture", "Size of the picture that is rendered."));
+  a.field("sequence", v.sequence,
+          of(Role::Shape)
+              .says("Sequence", "How many frames render --frames draws, and what changes from one to the next."));
 }
 
 }  // namespace sward::project

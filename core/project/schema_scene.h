@@ -196,4 +196,36 @@ void describe(A& a, typename A::template Ref<Output> v) {
           range(1, 16384, "pixels").soft(240, 4096).says("Height", "Height of the picture that is rendered."));
 }
 
+template <typename A>
+void describe(A& a, typename A::template Ref<Sequence> v) {
+  a.field("frames", v.frames,
+          range(1, 100000, "frames").soft(1, 1000).says("Frames", "How many pictures the sequence has."));
+  a.field("framesPerSecond", v.framesPerSecond,
+          range(0.01, 1000.0, "frames/s")
+              .decades(1.0, 60.0)
+              .says("Frame rate", "Pictures shown in a second: how fast the season plays."));
+  a.field("season", v.season,
+          range(0.0, 1.0)
+              .axes("Sequence", "Season")
+              .says("Season over frames",
+                    "Which moment of the season each frame shows, 0 to 1. It may rest or go back. Without points the "
+                    "whole season passes evenly."));
+  a.field("hourUtc", v.hourUtc,
+          range(0.0, 23.999999, "hours")
+              .axes("Sequence", "Hour (UTC)")
+              .in("Sun")
+              .expert()
+              .says("Hour over frames",
+                    "Which hour of the day each frame shows, with the sun by date and place. Without points the hour "
+                    "stays as the sun has it."));
+  a.field("days", v.days,
+          range(0, 3660, "days")
+              .soft(0, 183)
+              .in("Sun")
+              .expert()
+              .says("Days that pass",
+                    "From the first frame to the last, with the sun by date and place: it sinks "
+                    "towards winter as the sward withers."));
+}
+
 }  // namespace sward::project

@@ -1,5 +1,6 @@
 #include "project/limits.h"
 #include "project/range_check.h"
+#include "project/sequence.h"
 
 #include "base/file.h"
 
@@ -357,6 +358,21 @@ void checkViews(const Project& project, Problems& out) {
   }
 }
 
+void checkSequence(const Project& project, Problems& out) {
+  const Sequence& sequence = project.sequence;
+  const bool sun = !sequence.hourUtc.points().empty() || sequence.days > 0;
+  if (sun && !project.sun.byMoment) {
+    out.warning(sequence.days > 0 ? "sequence.days" : "sequence.hourUtc", "the sun stands at angles, and does not move",
+                "Set sun.byMoment, so that date and hour place it.");
+  }
+  if (!project.sun.byMoment || sequence.days <= 0 || sequence.frames < 2) return;
+  const int last = projectAt(project, sequence.frames - 1).sun.moment.year;
+  if (last > 2050) {
+    out.error("sequence.days", "the sequence ends in the year " + std::to_string(last),
+              "The sun is known until 2050; let fewer days pass.");
+  }
+}
+
 void checkRest(const Project& project, Problems& out) {
   if (project.fit.clusters != 2 && project.fit.clusters != 4) {
     out.error("fit.clusters", std::to_string(project.fit.clusters) + " groups of layers cannot be stored",
@@ -391,6 +407,7 @@ std::vector<Problem> validate(const Project& project) {
   checkTerrain(project, problems);
   checkViews(project, problems);
   checkRest(project, problems);
+  checkSequence(project, problems);
   return std::move(problems.list());
 }
 

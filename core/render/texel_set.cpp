@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -20,35 +21,37 @@ using wither::Voxel;
 constexpr int kBrick = wither::TexelGrid::kBrick;
 constexpr std::size_t kBrickVoxels = std::size_t{kBrick} * kBrick * kBrick;
 constexpr std::size_t kVoxelWords = 2;
-constexpr std::size_t kGrain = 64;
-constexpr int kMostEmptyPower = 6;     ///< a ray passes empty cubes of up to 64 voxels in one step
-constexpr std::size_t kFarLevels = 2;  ///< how much coarser what shades from afar may be
+constexpr std::size_t kGrain = 4096;
+constexpr std::size_t kBrickGrain = 64;
+constexpr int kMostEmptyPower = 6;  ///< a ray passes empty cubes of up to 64 voxels in one step
 
 /// Texels of a texture buffer: what Mesa's software renderer and common GPUs take (OpenGL grants 2^16 alone).
 constexpr std::size_t kMostTexels = std::size_t{1} << 27;
 
-std::uint32_t byteOf(double value) {
-  return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0, 1.0) * 255.0));
+/// Of what is not below 0, to the nearest whole number.
+std::uint32_t nearest(float value) {
+  return static_cast<std::uint32_t>(static_cast<std::int32_t>(value + 0.5f));
+}
+
+std::uint32_t byteOf(float value) {
+  return nearest(std::clamp(value, 0.0f, 1.0f) * 255.0f);
 }
 
 /// Two bytes; 0 is kept for no direction: the code of no unit vector, whose coordinates are stored from 1 on.
 std::uint32_t octahedral(const glm::vec3& direction) {
   const float sum = std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
   if (!(sum > 0.0f)) return 0;
-  glm::vec2 p = glm::vec2(direction) / sum;
+  glm::vec2 p = glm::vec2(direction) * (1.0f / sum);
   if (direction.z < 0.0f) {
     p = glm::vec2((1.0f - std::abs(p.y)) * (p.x < 0.0f ? -1.0f : 1.0f),
                   (1.0f - std::abs(p.x)) * (p.y < 0.0f ? -1.0f : 1.0f));
   }
-  const auto code = [](float v) { return static_cast<std::uint32_t>(std::lround(v * 127.0f) + 128); };
+  const auto code = [](float v) { return nearest(std::clamp(v, -1.0f, 1.0f) * 127.0f + 128.0f); };
   return code(p.x) | code(p.y) << 8;
 }
 
-std::uint32_t colour30(const glm::vec3& radiance, double range) {
-  const auto code = [range](float v) {
-    return static_cast<std::uint32_t>(
-        std::lround(std::sqrt(std::clamp(static_cast<double>(v) / range, 0.0, 1.0)) * 1023.0));
-  };
+std::uint32_t colour30(const glm::vec3& radiance, float perRange) {
+  const auto code = [perRange](float v) { return nearest(std::sqrt(std::clamp(v * perRange, 0.0f, 1.0f)) * 1023.0f); };
   return code(radiance.r) | code(radiance.g) << 10 | code(radiance.b) << 20;
 }
 
@@ -60,43 +63,44 @@ double brightest(const wither::TexelLight& light) {
 
 /// The upper half of the sphere on two bytes: a normal and its opposite are one.
 std::uint32_t hemisphere(const glm::vec3& normal) {
-  const glm::vec3 up = normal.z < 0.0f ? -normal : normal;
-  const float sum = std::abs(up.x) + std::abs(up.y) + up.z;
-  const auto code = [sum](float v) {
-    return static_cast<std::uint32_t>(sum > 0.0f ? std::lround(v / sum * 127.0f) + 128 : 128);
-  };
-  return code(up.x) | code(up.y) << 8;
+  const float sum = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);
+  const float scale = sum > 0.0f ? (normal.z < 0.0f ? -127.0f : 127.0f) / sum : 0.0f;
+  return nearest(normal.x * scale + 128.0f) | nearest(normal.y * scale + 128.0f) << 8;
 }
 
 /// Extinctions along the normal and across it, 1/m: wither/extinction.h of S = share n n^T + (1 - share) I / 3.
-glm::dvec2 extinctions(const Voxel& voxel) {
-  const double share = wither::normalShare(voxel);
-  const glm::dvec2 eigen(1.0 + 2.0 * share, 1.0 - share);
-  return double{voxel.density} * glm::sqrt(eigen / 3.0 * (5.0 + eigen) / 8.0);
+glm::vec2 extinctions(float density, float share) {
+  const glm::vec2 eigen(1.0f + 2.0f * share, 1.0f - share);
+  return density * glm::sqrt(eigen * (5.0f + eigen) * (1.0f / 24.0f));
 }
 
-std::uint32_t mediumWord(const Voxel& voxel, double range) {
-  const glm::dvec2 extinction = extinctions(voxel);
-  const std::uint32_t along = std::max(byteOf(std::sqrt(extinction.x / range)), 1u);
+/// One over the ranges that words are kept in.
+struct PerRange {
+  float extinction = 1.0f, radiance = 1.0f;
+};
+
+std::uint32_t mediumWord(const Voxel& voxel, float share, const PerRange& per) {
+  const glm::vec2 extinction = extinctions(voxel.density, share);
+  const std::uint32_t along = std::max(byteOf(std::sqrt(extinction.x * per.extinction)), 1u);
   return hemisphere(voxel.normal) | byteOf(extinction.y / extinction.x) << 16 | along << 24;
 }
 
 /// Five, six and five bits of the square root over the range, rounded up or down by lot: the mean of many has no steps.
-std::uint32_t colour16(const glm::vec3& radiance, double range, std::uint32_t lots) {
-  const auto code = [&](float v, double levels, int shift) {
-    const double root = std::sqrt(std::clamp(static_cast<double>(v) / range, 0.0, 1.0));
-    return static_cast<std::uint32_t>(root * levels + static_cast<double>(lots >> shift & 0x3ffu) / 1024.0);
+std::uint32_t colour16(const glm::vec3& radiance, float perRange, std::uint32_t lots) {
+  const auto code = [&](float v, float levels, int shift) {
+    const float lot = static_cast<float>(lots >> shift & 0x3ffu) * (1.0f / 1024.0f);
+    return static_cast<std::uint32_t>(std::sqrt(std::clamp(v * perRange, 0.0f, 1.0f)) * levels + lot);
   };
-  return code(radiance.r, 31.0, 0) | code(radiance.g, 63.0, 10) << 5 | code(radiance.b, 31.0, 20) << 11;
+  return code(radiance.r, 31.0f, 0) | code(radiance.g, 63.0f, 10) << 5 | code(radiance.b, 31.0f, 20) << 11;
 }
 
-std::uint32_t colourWord(const Voxel& voxel, const wither::LitVoxel& lit, double range, std::uint64_t lots) {
+std::uint32_t colourWord(const Voxel& voxel, const wither::LitVoxel& lit, float perRange, std::uint64_t lots) {
   // The medium's normal points up: colours are kept by its sides. Without a normal both sides are the front.
   const bool none = voxel.normal == glm::vec3(0.0f);
   const glm::vec3& upper = voxel.normal.z < 0.0f ? lit.back : lit.front;
   const glm::vec3& lower = voxel.normal.z < 0.0f || none ? lit.front : lit.back;
-  return colour16(upper, range, static_cast<std::uint32_t>(lots)) |
-         colour16(lower, range, static_cast<std::uint32_t>(lots >> 32)) << 16;
+  return colour16(upper, perRange, static_cast<std::uint32_t>(lots)) |
+         colour16(lower, perRange, static_cast<std::uint32_t>(lots >> 32)) << 16;
 }
 
 /// Of a voxel (x, y, z) in its brick, given as (z * 8 + y) * 8 + x: eight that form a cube follow each other, so that
@@ -123,6 +127,18 @@ void markEmptyBricks(const wither::TexelGrid& grid, std::span<std::int32_t> bric
           for (int i = 0; i < side * side * side && empty; ++i) bricks[inside(i)] = -4 - power;
         }
   }
+}
+
+/// The largest extinction of them, 1/m.
+float mostExtinction(std::span<const Voxel> voxels) {
+  std::vector<float> most((voxels.size() + kGrain - 1) / kGrain, 0.0f);
+  base::parallelFor({}, voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto share = static_cast<float>(wither::normalShare(voxels[i]));
+      most[begin / kGrain] = std::max(most[begin / kGrain], extinctions(voxels[i].density, share).x);
+    }
+  });
+  return most.empty() ? 0.0f : *std::max_element(most.begin(), most.end());
 }
 
 template <typename T>
@@ -153,9 +169,7 @@ Result<TexelSet> TexelSet::create(std::shared_ptr<const bake::TexelBake> bake) {
     }
     markEmptyBricks(texel.grid(), std::span(bricks).subspan(firstBrick));
     firstPlace += texel.stored().size() * kBrickVoxels;
-    for (const Voxel& voxel : texel.voxels()) {
-      set.m_extinctionRange = std::max(set.m_extinctionRange, extinctions(voxel).x);
-    }
+    set.m_extinctionRange = std::max(set.m_extinctionRange, double{mostExtinction(texel.voxels())});
   }
   set.m_places = places;
   set.m_bricks = bufferOf(bricks);
@@ -164,51 +178,60 @@ Result<TexelSet> TexelSet::create(std::shared_ptr<const bake::TexelBake> bake) {
   return set;
 }
 
-void TexelSet::fillBricks(const Texel& texel, const wither::LitTexel& lit, std::size_t first, const JobContext& job,
-                          std::vector<std::uint32_t>& voxels, std::vector<std::uint32_t>& glosses) const {
-  base::parallelFor(job, texel.stored().size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) {
-      const Texel::Brick& brick = texel.stored()[b];
-      std::size_t at = brick.first;
-      for (std::size_t v = 0; v < kBrickVoxels; ++v) {
-        if ((brick.mask[v / 64] >> (v % 64) & 1) == 0) continue;
-        const std::size_t place = first + b * kBrickVoxels + placeOf(v);
-        const Voxel& voxel = texel.voxels()[at];
-        voxels[place * kVoxelWords] = mediumWord(voxel, m_extinctionRange);
-        voxels[place * kVoxelWords + 1] = colourWord(voxel, lit.voxels[at], m_radianceRange, base::mix64(place));
-        glosses[place] = octahedral(voxel.tangent) | byteOf(double{voxel.specular} * double{lit.voxels[at].sun}) << 16;
-        ++at;
-      }
-    }
-  });
-}
-
 Result<void> TexelSet::relight(const wither::TexelLight& light, const JobContext& job) {
   m_radianceRange = brightest(light);
-  std::vector<std::uint32_t> voxels(m_places * kVoxelWords, 0), glosses(m_places, 0);
-  std::vector<std::uint32_t> soil(m_bake->soil.size());
+  const PerRange per{static_cast<float>(1.0 / m_extinctionRange), static_cast<float>(1.0 / m_radianceRange)};
+  const wither::LeafShading shading(light);
+  std::vector<std::uint32_t> words(m_places * kVoxelWords, 0), glosses(m_places, 0);
   std::size_t first = 0;
-  for (std::size_t l = 0; l < m_bake->levels.size(); ++l) {
-    const auto& level = m_bake->levels[l];
-    const wither::Texel* coarse =
-        l + kFarLevels < m_bake->levels.size() ? m_bake->levels[l + kFarLevels].texel.get() : nullptr;
-    SWARD_ASSIGN(const wither::LitTexel lit, wither::lightTexel(*level.texel, coarse, level.sky, light, job));
-    fillBricks(*level.texel, lit, first, job, voxels, glosses);
-    first += level.texel->stored().size() * kBrickVoxels;
-    for (std::size_t i = 0; l == 0 && i < soil.size(); ++i) {
-      const glm::dvec3 sun = light.sunIrradiance * (std::max(light.toSun.z, 0.0) / std::numbers::pi);
-      const glm::dvec3 irradiance = sun * double{lit.groundSun[i]} + light.skyRadiance * double{level.sky.ground[i]};
-      soil[i] = colour30(glm::vec3(glm::dvec3(m_bake->soil[i]) * irradiance), m_radianceRange);
-    }
+  for (const auto& level : m_bake->levels) {
+    const Texel& texel = *level.texel;
+    SWARD_ASSIGN(const wither::SunReach reach, wither::sunReach(texel, light.toSun, job));
+    const auto fill = [&](std::size_t place, std::size_t i) {
+      const Voxel& voxel = texel.voxels()[i];
+      const auto share = static_cast<float>(wither::normalShare(voxel));
+      const wither::LitVoxel lit = shading(voxel, share, level.sky.front[i], level.sky.back[i], reach.voxels[i]);
+      words[place * kVoxelWords] = mediumWord(voxel, share, per);
+      words[place * kVoxelWords + 1] = colourWord(voxel, lit, per.radiance, base::mix64(place));
+      glosses[place] = octahedral(voxel.tangent) | byteOf(voxel.specular * reach.voxels[i]) << 16;
+    };
+    base::parallelFor(job, texel.stored().size(), kBrickGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t b = begin; b < end; ++b) {
+        const Texel::Brick& brick = texel.stored()[b];
+        std::size_t i = brick.first;
+        for (std::size_t z = 0; z < brick.mask.size(); ++z) {
+          for (std::uint64_t bits = brick.mask[z]; bits != 0; bits &= bits - 1) {
+            const std::size_t v = z * 64 + static_cast<std::size_t>(std::countr_zero(bits));
+            fill(first + b * kBrickVoxels + placeOf(v), i++);
+          }
+        }
+      }
+    });
+    if (&level == m_bake->levels.data()) setSoil(light, reach.ground, per.radiance);
+    first += texel.stored().size() * kBrickVoxels;
   }
-  if (job.stop.stop_requested()) return Error::cancelled();
-  m_voxels = bufferOf(voxels);
-  m_voxelsView = gpu::Texture::ofBuffer(GL_R32UI, m_voxels);
-  m_glosses = bufferOf(glosses);
-  m_glossesView = gpu::Texture::ofBuffer(GL_R32UI, m_glosses);
+  if (job.cancelled()) return Error::cancelled();
+  if (m_voxels.size() == 0) {
+    m_voxels = gpu::Buffer(std::span(words).size_bytes());
+    m_voxelsView = gpu::Texture::ofBuffer(GL_R32UI, m_voxels);
+    m_glosses = gpu::Buffer(std::span(glosses).size_bytes());
+    m_glossesView = gpu::Texture::ofBuffer(GL_R32UI, m_glosses);
+  }
+  m_voxels.write(std::as_bytes(std::span(words)));
+  m_glosses.write(std::as_bytes(std::span(glosses)));
+  return {};
+}
+
+void TexelSet::setSoil(const wither::TexelLight& light, std::span<const float> groundSun, float perRange) {
+  const glm::dvec3 sun = light.sunIrradiance * (std::max(light.toSun.z, 0.0) / std::numbers::pi);
+  const std::vector<float>& sky = m_bake->levels.front().sky.ground;
+  std::vector<std::uint32_t> soil(m_bake->soil.size());
+  for (std::size_t i = 0; i < soil.size(); ++i) {
+    const glm::dvec3 irradiance = sun * double{groundSun[i]} + light.skyRadiance * double{sky[i]};
+    soil[i] = colour30(glm::vec3(glm::dvec3(m_bake->soil[i]) * irradiance), perRange);
+  }
   m_soil = bufferOf(soil);
   m_soilView = gpu::Texture::ofBuffer(GL_R32UI, m_soil);
-  return {};
 }
 
 std::uint64_t TexelSet::bytes() const {

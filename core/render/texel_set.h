@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -41,8 +42,7 @@ class TexelSet {
   void bind(GLuint first) const;
 
  private:
-  void fillBricks(const wither::Texel& texel, const wither::LitTexel& lit, std::size_t first, const JobContext& job,
-                  std::vector<std::uint32_t>& voxels, std::vector<std::uint32_t>& glosses) const;
+  void setSoil(const wither::TexelLight& light, std::span<const float> groundSun, float perRange);
 
   std::shared_ptr<const bake::TexelBake> m_bake;
   std::vector<int> m_levelStarts;

@@ -1,6 +1,6 @@
 #include "report/grassland_causes.h"
 
-#include "report/text.h"
+#include "report/truth_causes.h"
 
 #include <array>
 #include <string>
@@ -9,25 +9,9 @@
 namespace sward::report {
 namespace {
 
-/// Two pictures of the same truth with independent noise.
-using Twins = std::array<image::Image, 2>;
-
+/// Of a cause's two references.
 Result<Twins> twins(const CauseInput& input, const TruthVariant& variant, const JobContext& job) {
-  Twins out;
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    // The same seeds for all variants: what they have in common has the same noise and leaves the difference.
-    SWARD_ASSIGN(TruthPicture picture, input.truth.picture(input.frame, variant, input.samples, 11 + i, job));
-    out[i] = std::move(picture.linear);
-  }
-  return out;
-}
-
-Row causeRow(const std::string& method, const PicturePair& one, const PicturePair& other, std::string notes) {
-  Row row;
-  row.method = "cause_" + method;
-  row.error = {{"rmse", rmseWithoutNoise(one, other)}, {"bias", biasOf(one, other)}};
-  row.notes = std::move(notes);
-  return row;
+  return truthTwins(input.truth, input.frame, variant, input.samples, job);
 }
 
 Result<image::Image> draw(const CauseInput& input, const std::shared_ptr<const bake::GroundBake>& ground,
@@ -77,35 +61,9 @@ Result<std::vector<Row>> drawnRows(const CauseInput& input, const JobContext& jo
   return rows;
 }
 
-struct TruthCause {
-  const char* method;
-  TruthVariant variant;
-  const char* notes;
-};
 constexpr std::array kTruthCauses{
     TruthCause{"tiling", {true, false, false, 0}, "shadows through the periodic patch instead of the tiled ground"},
-    TruthCause{"sky", {false, true, false, 0}, "the sky's mean radiance from everywhere instead of its own"},
-    TruthCause{"sun_disc", {false, false, true, 0}, "a point instead of the sun's disc"},
-    TruthCause{
-        "bounces", {false, false, false, 2}, "two bounces between leaves and soil, which are left out elsewhere"}};
-
-/// Rows of two references each.
-Result<std::vector<Row>> truthRows(const CauseInput& input, const JobContext& job) {
-  SWARD_ASSIGN(const Twins truth, twins(input, {}, job));
-  std::vector<Row> rows;
-  for (const TruthCause& cause : kTruthCauses) {
-    SWARD_ASSIGN(const Twins varied, twins(input, cause.variant, job));
-    // Light that is left out is an error of what leaves it out.
-    const bool truer = cause.variant.bounces > 0;
-    const auto pair = [&](std::size_t i) {
-      return truer ? PicturePair{varied[i], truth[i]} : PicturePair{truth[i], varied[i]};
-    };
-    Row row = causeRow(cause.method, pair(0), pair(1), cause.notes);
-    row.reference = "ray-traced";
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
+    kSkyCause, kSunDiscCause, kBouncesCause};
 
 }  // namespace
 
@@ -135,7 +93,7 @@ Result<std::vector<Row>> causeRows(const CauseInput& input, const JobContext& jo
   const CauseInput checked{input.renderer, input.truth, grounds, input.frame, input.samples};
   SWARD_ASSIGN(std::vector<Row> rows, drawnRows(checked, job));
   SWARD_TRY(input.renderer.setGround(input.grounds.project));
-  SWARD_ASSIGN(std::vector<Row> more, truthRows(checked, job));
+  SWARD_ASSIGN(std::vector<Row> more, truthCauseRows(input.truth, input.frame, kTruthCauses, input.samples, job));
   for (Row& row : more) rows.push_back(std::move(row));
   for (Row& row : rows) row.numbersAndNames["reference_samples"] = std::to_string(2 * input.samples);
   return rows;

@@ -14,10 +14,15 @@ namespace sward::report {
 
 Result<GroundTruth> GroundTruth::create(const project::Project& project, const bake::GroundBake& ground,
                                         const scene::Daylight& light, const JobContext& job) {
+  SWARD_ASSIGN(scene::Patch grown, bake::growPatch(project));
+  return create(project, ground, std::move(grown), light, job);
+}
+
+Result<GroundTruth> GroundTruth::create(const project::Project& project, const bake::GroundBake& ground,
+                                        scene::Patch patch, const scene::Daylight& light, const JobContext& job) {
   GroundTruth truth(light, project.sky.hazeKm);
   truth.m_plan = bake::groundPlan(ground);
-  SWARD_ASSIGN(scene::Patch grown, bake::growPatch(project));
-  SWARD_ASSIGN(truth.m_patch, trace::PatchScene::create(std::make_shared<const scene::Patch>(std::move(grown)),
+  SWARD_ASSIGN(truth.m_patch, trace::PatchScene::create(std::make_shared<const scene::Patch>(std::move(patch)),
                                                         {job.stop, {}, job.threads}));
   SWARD_ASSIGN(truth.m_soil, bake::soilColours(project, truth.m_plan.patchTexels));
   return truth;

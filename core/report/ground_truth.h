@@ -6,6 +6,7 @@
 #include "image/image.h"
 #include "project/project.h"
 #include "render/renderer.h"
+#include "scene/patch.h"
 #include "scene/sun_sky.h"
 #include "trace/ground_plan.h"
 #include "trace/patch_scene.h"
@@ -35,6 +36,9 @@ struct TruthPicture {
 class GroundTruth {
  public:
   static Result<GroundTruth> create(const project::Project& project, const bake::GroundBake& ground,
+                                    const scene::Daylight& light, const JobContext& job);
+  /// The same of other plants than bake::growPatch gives: a patch of the bake's side.
+  static Result<GroundTruth> create(const project::Project& project, const bake::GroundBake& ground, scene::Patch patch,
                                     const scene::Daylight& light, const JobContext& job);
 
   /// The picture of a frame (camera, size, exposure, bend; samples are `samples`, filtered with the renderer's tent).

@@ -65,6 +65,10 @@ float channelOf(const trace::LayerLuminance& luminance, int channel, std::size_t
   return channel == 0 ? luminance.reflected[texel] : luminance.transmitted[texel];
 }
 
+double trueCoverage(const LightSamples& samples, std::size_t texel) {
+  return static_cast<double>(samples.truthCoverage[texel]);
+}
+
 }  // namespace
 
 void ErrorSum::add(double weight, double difference) {
@@ -97,7 +101,7 @@ ErrorSum total(std::span<const ErrorSum> sums) {
 }
 
 double texelWeight(const LightSamples& samples, std::size_t texel, TexelWeight weight) {
-  const auto coverage = static_cast<double>(samples.train.coverage[texel]);
+  const double coverage = trueCoverage(samples, texel);
   if (weight == TexelWeight::Covered) return coverage;
   return coverage * std::max(static_cast<double>(samples.visibility[texel]), 0.5 / samples.visibilityDirections);
 }
@@ -179,14 +183,17 @@ ErrorSum betweenSamples(const LightSamples& samples) {
   for (std::size_t k = 0; k < samples.betweenLights.size(); ++k) {
     const trace::LayerLuminance& known = samples.truth[samples.betweenLights[k]];
     const auto sums = sumRows(samples, 1, {}, [&](std::size_t t, const Surroundings& s, ErrorSum* row) {
-      if (!(s.covered > 0.0)) return;
+      double covered = 0.0;
+      for (std::size_t i = 0; i < 4; ++i) covered += s.coverage[i] > 0.0 ? trueCoverage(samples, s.texel[i]) : 0.0;
+      if (!(covered > 0.0)) return;
       for (int channel = 0; channel < 2; ++channel) {
         double drawn = 0.0;
         for (std::size_t i = 0; i < 4; ++i) {
-          if (s.coverage[i] > 0.0) drawn += s.coverage[i] * static_cast<double>(channelOf(known, channel, s.texel[i]));
+          if (!(s.coverage[i] > 0.0)) continue;
+          drawn += trueCoverage(samples, s.texel[i]) * static_cast<double>(channelOf(known, channel, s.texel[i]));
         }
         const auto truth = static_cast<double>(channelOf(samples.between.response[k], channel, t));
-        row->add(static_cast<double>(samples.between.coverage[t]), drawn / s.covered - truth);
+        row->add(static_cast<double>(samples.between.coverage[t]), drawn / covered - truth);
       }
     });
     sum.add(sums[0]);

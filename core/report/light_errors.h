@@ -28,8 +28,8 @@ struct ErrorSum {
 };
 ErrorSum total(std::span<const ErrorSum> sums);
 
-/// What weighs a texel: its coverage alone, or what a fit weighs it by: coverage times the visibility, at least half a
-/// view direction.
+/// What weighs a texel: its coverage by the truth's rays alone, or what a fit weighs it by: coverage times the
+/// visibility, at least half a view direction.
 enum class TexelWeight { Covered, Seen };
 double texelWeight(const LightSamples& samples, std::size_t texel, TexelWeight weight);
 

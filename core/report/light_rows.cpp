@@ -57,9 +57,12 @@ std::string sampleSummary(const LightSamples& samples) {
          " others: a Fibonacci lattice turned by one radian, whose nearest light is " +
          text("%.1f", samples.nearestDeg) +
          " degrees from a training light. Errors are of the response to a light of unit irradiance (reflected and "
-         "transmitted alike, negative predictions drawn as 0), weighted by the coverage of each layer texel. The "
-         "samples "
-         "are noisy themselves: a second seed puts the standard deviation of one value at " +
+         "transmitted alike, negative predictions drawn as 0), weighted by the coverage of each layer texel. The truth "
+         "has rays of its own, " +
+         std::to_string(kTruthFactor * samples.subSamples) +
+         " a layer texel, so that no method is compared with the very leaves that it was fitted to. It is noisy "
+         "itself: "
+         "its two halves put the standard deviation of one value at " +
          text("%.4f", std::sqrt(samples.noiseVariance)) +
          ", which is part of every error here; take its square from the squares to see a method alone.";
 }

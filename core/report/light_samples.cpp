@@ -1,6 +1,7 @@
 #include "report/light_samples.h"
 
 #include "bake/plants.h"
+#include "report/light_truth.h"
 #include "scene/lights.h"
 #include "trace/patch_scene.h"
 
@@ -37,31 +38,6 @@ double leastAngleDeg(const std::vector<glm::dvec3>& a, const std::vector<glm::dv
   return least;
 }
 
-std::vector<float> coverageOf(const trace::LayerHits& hits) {
-  std::vector<float> coverage(hits.texels());
-  for (std::size_t t = 0; t < coverage.size(); ++t) coverage[t] = hits.coverage(t);
-  return coverage;
-}
-
-Result<std::vector<trace::LayerLuminance>> responses(const trace::PatchScene& scene, const trace::LayerHits& hits,
-                                                     std::span<const glm::dvec3> lights, const JobContext& job) {
-  std::vector<trace::LayerLuminance> result;
-  for (const glm::dvec3& light : lights) {
-    SWARD_ASSIGN(trace::LayerLuminance one, trace::sampleLuminance(scene, hits, light, job));
-    result.push_back(std::move(one));
-  }
-  return result;
-}
-
-Result<SampledLight> sampled(const trace::PatchScene& scene, const trace::SamplingOptions& options,
-                             std::span<const glm::dvec3> lights, const JobContext& job) {
-  SampledLight out;
-  SWARD_ASSIGN(out.hits, trace::sampleHits(scene, trace::LayerSet::Slices, options, job));
-  out.coverage = coverageOf(out.hits);
-  SWARD_ASSIGN(out.response, responses(scene, out.hits, lights, job));
-  return out;
-}
-
 /// The patch with every plant moved so that the corner between four texels comes to the middle of one.
 std::shared_ptr<const scene::Patch> movedPatch(const scene::Patch& patch, double byM) {
   auto moved = std::make_shared<scene::Patch>(patch);
@@ -73,30 +49,6 @@ std::shared_ptr<const scene::Patch> movedPatch(const scene::Patch& patch, double
     }
   }
   return moved;
-}
-
-/// Weighted mean over the texels that both have, channels and lights, of half the squared difference: the variance of
-/// one of them.
-double varianceBetween(const SampledLight& a, const SampledLight& b, std::span<const std::size_t> lightsOfA,
-                       const std::vector<trace::LayerLuminance>& truth) {
-  double sum = 0.0, weights = 0.0;
-  for (std::size_t column = 0; column + 1 < a.hits.columnStart.size(); ++column) {
-    std::size_t j = b.hits.columnStart[column];
-    for (std::size_t i = a.hits.columnStart[column]; i < a.hits.columnStart[column + 1]; ++i) {
-      while (j < b.hits.columnStart[column + 1] && b.hits.layer[j] < a.hits.layer[i]) ++j;
-      if (j == b.hits.columnStart[column + 1] || b.hits.layer[j] != a.hits.layer[i]) continue;
-      const double w = static_cast<double>(a.coverage[i]);
-      for (std::size_t k = 0; k < lightsOfA.size(); ++k) {
-        const trace::LayerLuminance& first = truth[lightsOfA[k]];
-        const trace::LayerLuminance& second = b.response[k];
-        const double r = static_cast<double>(first.reflected[i]) - static_cast<double>(second.reflected[j]);
-        const double t = static_cast<double>(first.transmitted[i]) - static_cast<double>(second.transmitted[j]);
-        sum += w * 0.5 * (r * r + t * t);
-        weights += 2.0 * w;
-      }
-    }
-  }
-  return weights > 0.0 ? sum / weights : 0.0;
 }
 
 trace::SamplingOptions samplingOf(const SectionInput& input) {
@@ -112,18 +64,11 @@ std::vector<glm::dvec3> lightsBetween(const LightSamples& samples) {
   return lights;
 }
 
-Result<void> measureNoise(const trace::PatchScene& scene, trace::SamplingOptions options, LightSamples& samples,
-                          const JobContext& job) {
-  options.seed ^= 0x6e6f697365;  // "noise"
-  SWARD_ASSIGN(const SampledLight second, sampled(scene, options, lightsBetween(samples), job));
-  samples.noiseVariance = varianceBetween(samples.train, second, samples.betweenLights, samples.truth);
-  return {};
-}
-
-Result<void> measureBetween(LightSamples& samples, const trace::SamplingOptions& options, const JobContext& job) {
+Result<void> measureBetween(LightSamples& samples, trace::SamplingOptions options, const JobContext& job) {
+  options.sliceSubSamples *= kTruthFactor;
   const double halfTexel = 0.5 * samples.patch->sideM / options.sliceResolution;
   SWARD_ASSIGN(const auto scene, trace::PatchScene::create(movedPatch(*samples.patch, halfTexel), job));
-  SWARD_ASSIGN(samples.between, sampled(*scene, options, lightsBetween(samples), job));
+  SWARD_ASSIGN(samples.between, sampleLayers(*scene, options, lightsBetween(samples), job));
   return {};
 }
 
@@ -178,7 +123,7 @@ Result<std::shared_ptr<const LightSamples>> sampleLights(const SectionInput& inp
   quiet.onProgress = nullptr;
   SWARD_ASSIGN(const auto scene, trace::PatchScene::create(samples->patch, quiet));
   const auto start = std::chrono::steady_clock::now();
-  SWARD_ASSIGN(samples->train, sampled(*scene, options, samples->training, quiet));
+  SWARD_ASSIGN(samples->train, sampleLayers(*scene, options, samples->training, quiet));
   SWARD_ASSIGN(trace::LayerVisibility seen, trace::sampleVisibility(*scene, samples->train.hits, options, quiet));
   samples->visibility = std::move(seen.visibility);
   samples->sky = {std::move(seen.skyReflected), std::move(seen.skyTransmitted)};
@@ -187,9 +132,13 @@ Result<std::shared_ptr<const LightSamples>> sampleLights(const SectionInput& inp
     return Error::badInput("the patch has nothing to sample", "report sections of light",
                            "Give the patch some plants.");
   }
-  SWARD_ASSIGN(samples->truth, responses(*scene, samples->train.hits, samples->heldOut, quiet));
+  const auto truthStart = std::chrono::steady_clock::now();
+  SWARD_ASSIGN(HeldOutTruth truth, sampleTruth(*scene, options, samples->train.hits, samples->heldOut, quiet));
+  samples->truth = std::move(truth.response);
+  samples->truthCoverage = std::move(truth.coverage);
+  samples->noiseVariance = truth.noiseVariance;
+  samples->truthSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - truthStart).count();
   SWARD_ASSIGN(samples->density, trace::VoxelDensity::create(samples->patch, trace::VoxelOptions::of(options), quiet));
-  SWARD_TRY(measureNoise(*scene, options, *samples, quiet));
   SWARD_TRY(measureBetween(*samples, options, quiet));
   return std::shared_ptr<const LightSamples>(std::move(samples));
 }

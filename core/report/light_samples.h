@@ -43,15 +43,18 @@ struct LightSamples {
 
   SampledLight train;  ///< of the training lights
   std::vector<float> visibility;
-  std::array<std::vector<float>, 2> sky;     ///< terms of train's texels, reflected and transmitted
-  std::vector<trace::LayerLuminance> truth;  ///< train's texels under the held-out lights
+  std::array<std::vector<float>, 2> sky;  ///< terms of train's texels, reflected and transmitted
+  /// Train's texels under the held-out lights, by rays of their own, kTruthFactor times as many: a method that follows
+  /// the very leaves that its own rays met would else be compared with those leaves, not with the texel.
+  std::vector<trace::LayerLuminance> truth;
+  std::vector<float> truthCoverage;  ///< of train's texels by the truth's rays; 0 where these met nothing
   /// Held-out lights, evenly chosen from high to low, under which places between texels are compared.
   std::vector<std::size_t> betweenLights;
   /// The patch moved by half a texel in x and y: its texel (x, y) lies between the four at x, x + 1, y, y + 1. One
-  /// response for each of betweenLights.
+  /// response for each of betweenLights, by as many rays as the truth.
   SampledLight between;
-  /// Variance of a truth value, weighted by coverage: from a second sampling with another seed, under betweenLights.
-  double noiseVariance = 0.0;
+  double noiseVariance = 0.0;  ///< of a truth value, weighted by coverage: from the two halves of the truth's rays
+  double truthSeconds = 0.0;
   double sampleSeconds = 0.0;  ///< of the training lights and the visibility
 
   std::shared_ptr<const trace::VoxelDensity> density;  ///< of the patch, for marched; none: marched is left out
@@ -63,6 +66,9 @@ struct LightSamples {
 
   std::vector<std::vector<glm::dvec3>> lightsWithout;  ///< [training light]: all others
 };
+
+/// The truth's rays a layer texel, over those of the training samples.
+inline constexpr int kTruthFactor = 4;
 
 /// Samples a project's slices. Errors: no lights, a patch without plants, assets that cannot be read; cancelled.
 Result<std::shared_ptr<const LightSamples>> sampleLights(const SectionInput& input, const JobContext& job);

@@ -9,7 +9,9 @@
 namespace sward::report {
 namespace {
 
-constexpr double kRoom = 0.07;  ///< of the range, at each end: a marker is never cut by the frame
+constexpr double kRoom = 0.07;        ///< of the range, at each end: a marker is never cut by the frame
+constexpr double kFromZero = 0.7;     ///< values whose least is under this part of the greatest show 0 as well
+constexpr double kDomainZero = 0.15;  ///< the same of what curves run over
 
 std::string superscript(int exponent) {
   static const std::array<const char*, 10> digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
@@ -91,12 +93,12 @@ Axis logAxis(const std::vector<double>& values) {
   return axis;
 }
 
-Axis linearAxis(const std::vector<double>& values) {
+Axis linearAxis(const std::vector<double>& values, double zeroShare) {
   Axis axis{0.0, 1.0, false, {}};
   if (!values.empty()) {
     const double low = std::clamp(*std::min_element(values.begin(), values.end()), -1e300, 1e300);
     const double high = std::clamp(*std::max_element(values.begin(), values.end()), -1e300, 1e300);
-    const bool fromZero = low >= 0.0 && low < 0.7 * high;
+    const bool fromZero = low >= 0.0 && low < zeroShare * high;
     double range = high - (fromZero ? 0.0 : low);
     if (!(range > 1e-9 * std::max(std::abs(low), std::abs(high)))) range = high == 0.0 ? 1.0 : 0.2 * std::abs(high);
     const double middle = 0.5 * (low + high);
@@ -108,6 +110,14 @@ Axis linearAxis(const std::vector<double>& values) {
   return axis;
 }
 
+std::vector<double> shownOf(std::span<const double> values, bool log) {
+  std::vector<double> shown;
+  for (const double value : values) {
+    if (std::isfinite(value) && (!log || value > 0.0)) shown.push_back(value);
+  }
+  return shown;
+}
+
 }  // namespace
 
 double Axis::place(double value) const {
@@ -116,11 +126,13 @@ double Axis::place(double value) const {
 }
 
 Axis axisOf(std::span<const double> values, bool log) {
-  std::vector<double> shown;
-  for (const double value : values) {
-    if (std::isfinite(value) && (!log || value > 0.0)) shown.push_back(value);
-  }
-  return log ? logAxis(shown) : linearAxis(shown);
+  const std::vector<double> shown = shownOf(values, log);
+  return log ? logAxis(shown) : linearAxis(shown, kFromZero);
+}
+
+Axis domainAxisOf(std::span<const double> values, bool log) {
+  const std::vector<double> shown = shownOf(values, log);
+  return log ? logAxis(shown) : linearAxis(shown, kDomainZero);
 }
 
 }  // namespace sward::report

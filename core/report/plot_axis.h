@@ -24,5 +24,8 @@ struct Axis {
 /// above 0. Ticks stand at 1, 2 or 5 times powers of ten (or the powers alone where many fit); a linear axis of values
 /// that are not negative starts at 0 unless they lie close together far from it. No values: [0, 1] or [1, 10].
 Axis axisOf(std::span<const double> values, bool log);
+/// The same for what curves run over (a wavelength, a season), whose size is no measure: a linear axis starts where the
+/// values do, but for those that start near 0.
+Axis domainAxisOf(std::span<const double> values, bool log);
 
 }  // namespace sward::report

@@ -139,7 +139,9 @@ void Drawing::collect() {
       m_marks.push_back({0.0, 0.0, s, &point, false, {}});
     }
   }
-  m_x = axisOf(xs, m_plot.logX);
+  const bool curves = !m_plot.series.empty() && std::all_of(m_plot.series.begin(), m_plot.series.end(),
+                                                            [](const Plot::Series& series) { return series.line; });
+  m_x = curves ? domainAxisOf(xs, m_plot.logX) : axisOf(xs, m_plot.logX);
   m_y = axisOf(ys, m_plot.logY);
   if (m_plot.pareto) m_front = paretoFront(points);
   for (Mark& mark : m_marks) {

@@ -181,10 +181,12 @@ class FitSection {
     row.error = {
         {"rmse", noise.rmse()}, {"psnr_db", noise.psnrDb()}, {"rmse_between", betweenSamples(m_samples).rmse()}};
     row.bakeSeconds = m_samples.sampleSeconds;
-    row.reference = "the same samples with another seed";
+    row.numbersAndNames["truth_sub_samples"] = std::to_string(kTruthFactor * m_samples.subSamples);
+    row.numbersAndNames["truth_s"] = jsonNumber(m_samples.truthSeconds);
+    row.reference = "the two halves of the truth's rays";
     row.notes =
-        "No method: the noise of the samples, and what interpolating the samples themselves between texels costs. "
-        "Bake: sampling the training lights and the visibility.";
+        "No method: the noise of the truth, and what interpolating the truth itself between texels costs. Bake: "
+        "sampling the training lights and the visibility.";
     return row;
   }
 
@@ -255,7 +257,7 @@ class FitSection {
 
   /// Under the low and the high light, [channel][texel], and the weight of each texel.
   void addArrays() {
-    m_section.arrays.push_back({"lpt_fit_weight", {m_samples.texels()}, m_samples.train.coverage});
+    m_section.arrays.push_back({"lpt_fit_weight", {m_samples.texels()}, m_samples.truthCoverage});
     for (std::size_t i = 0; i < 2; ++i) {
       const std::string k = std::to_string(m_lights[i]);
       const trace::LayerLuminance& truth = m_samples.truth[m_lights[i]];

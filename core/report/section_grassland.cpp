@@ -1,13 +1,11 @@
 #include "report/section_grassland.h"
 
 #include "bake/bake.h"
-#include "image/error_colours.h"
-#include "image/metrics.h"
-#include "render/display.h"
 #include "render/frame_plan.h"
 #include "render/renderer.h"
 #include "report/grassland_causes.h"
 #include "report/ground_truth.h"
+#include "report/picture_row.h"
 #include "report/speed_views.h"
 #include "report/text.h"
 
@@ -32,10 +30,6 @@ constexpr std::array kDrawn{
     Drawn{"blended", render::GroundMethod::BlendedNormalised, "all planes blended, weights that sum to 1"},
     Drawn{"blended_paper", render::GroundMethod::BlendedPaper, "all planes blended, the paper's weights"}};
 
-std::string quoted(const std::string& text) {
-  return '"' + text + '"';
-}
-
 /// What all views share.
 struct Bench {
   const SectionInput& input;
@@ -56,13 +50,6 @@ Result<render::Frame> frameOf(const Bench& bench, const SpeedView& view) {
   return frame;
 }
 
-/// One view's truth, as rows and pictures need it.
-struct Reference {
-  TruthPicture picture;
-  image::Image display;
-  std::string name;
-};
-
 /// Of a frame by each method; each is timed in turn with the march.
 Result<std::array<TimeMs, kDrawn.size()>> timeMethods(Bench& bench, const render::Frame& frame) {
   std::array<TimeMs, kDrawn.size()> times;
@@ -81,65 +68,35 @@ Result<std::array<TimeMs, kDrawn.size()>> timeMethods(Bench& bench, const render
 }
 
 std::map<std::string, std::string> parametersOf(const Bench& bench, const SpeedView& view, const render::Frame& frame) {
-  return {{"view", quoted(view.name)},
+  return {{"view", quotedText(view.name)},
           {"slant_deg", numberText(view.slantDeg)},
           {"distance_m", numberText(view.distanceM)},
           {"width", std::to_string(frame.width)},
           {"height", std::to_string(frame.height)},
           {"samples", std::to_string(frame.options.samples)},
           {"layers", std::to_string(bench.ground->slices.layers)},
-          {"device", quoted(bench.input.context.info().renderer)}};
-}
-
-void addErrors(Row& row, const image::ErrorFigures& figures, const Reference& reference, int samples) {
-  row.error = {{"rmse", figures.rmse},
-               {"bias", figures.bias},
-               {"max", figures.max},
-               {"ssim", figures.ssim},
-               {"flip", figures.flip}};
-  if (figures.psnrDb) row.error["psnr_db"] = *figures.psnrDb;
-  const double noise = reference.picture.noiseRmse;
-  row.numbersAndNames["reference_noise_rmse"] = numberText(noise);
-  row.numbersAndNames["rmse_without_noise"] =
-      numberText(std::sqrt(std::max(figures.rmse * figures.rmse - noise * noise, 0.0)));
-  row.reference = "ray-traced tiled geometry, sun and sky, " + std::to_string(samples) + " samples a pixel";
+          {"device", quotedText(bench.input.context.info().renderer)}};
 }
 
 /// Draws and compares one method; adds its picture and difference to the strip.
 Result<Row> methodRow(Bench& bench, const SpeedView& view, const render::Frame& planned, const Drawn& drawn,
-                      const Reference& reference, Strip& strip, const JobContext& job) {
+                      const PictureReference& reference, Strip& strip, const JobContext& job) {
   render::Frame frame = planned;
   frame.options.method = drawn.method;
   SWARD_ASSIGN(image::Image linear, bench.renderer->drawLinear(frame));
-  image::Image display = render::toDisplay(linear, frame.options.viewTransform);
-  SWARD_ASSIGN(const image::ErrorFigures figures,
-               image::compareImages({reference.picture.linear, linear}, {reference.display, display}, {}, job));
-  SWARD_ASSIGN(const image::FlipError flip, image::flip(reference.display, display, {}, job));
-  SWARD_ASSIGN(image::Image coloured, image::colourErrors(flip.map));
-  Row row;
-  row.method = drawn.name;
-  row.numbersAndNames = parametersOf(bench, view, frame);
-  const std::string name = "grassland_" + view.name + "_" + drawn.name;
-  row.numbersAndNames["picture"] = quoted(name);
-  row.numbersAndNames["reference_picture"] = quoted(reference.name);
-  row.numbersAndNames["display"] =
-      quoted(frame.options.viewTransform == render::ViewTransform::Filmic ? "filmic" : "standard");
-  addErrors(row, figures, reference, bench.sizes.samples);
+  SWARD_ASSIGN(Row row, pictureRow({drawn.name, "grassland_" + view.name + "_" + drawn.name, std::move(linear)},
+                                   reference, frame.options.viewTransform, strip, job));
+  row.numbersAndNames.merge(parametersOf(bench, view, frame));
   row.notes = drawn.notes;
-  strip.pictures.push_back({name, drawn.name, std::move(linear), std::move(display)});
-  strip.pictures.push_back(
-      {name + "_flip", std::string(drawn.name) + ": difference (FLIP, bright is worse)", {}, std::move(coloured)});
   return row;
 }
 
 Result<std::vector<Row>> viewRows(Bench& bench, const SpeedView& view, Section& section, const JobContext& job) {
   SWARD_ASSIGN(const render::Frame frame, frameOf(bench, view));
-  Reference reference;
-  reference.name = "grassland_" + view.name + "_reference";
-  SWARD_ASSIGN(reference.picture, bench.truth.picture(frame, {}, bench.sizes.samples, 1, job));
-  reference.display = render::toDisplay(reference.picture.linear, frame.options.viewTransform);
+  SWARD_ASSIGN(const PictureReference reference,
+               pictureReference(bench.truth, frame, "grassland_" + view.name + "_reference", bench.sizes.samples, job));
   Strip strip{"View " + view.name, {}};
-  strip.pictures.push_back({reference.name, "reference", reference.picture.linear, reference.display});
+  strip.pictures.push_back(pictureOf(reference, "reference"));
   SWARD_ASSIGN(const auto times, timeMethods(bench, frame));
   std::vector<Row> rows;
   for (std::size_t i = 0; i < kDrawn.size(); ++i) {

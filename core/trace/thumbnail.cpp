@@ -3,11 +3,10 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "image/colour.h"
-#include "trace/patch_scene_impl.h"
+#include "trace/model_scene.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numbers>
 
@@ -16,75 +15,10 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr int kMostLeaves = 64;  ///< transparent surfaces that a ray goes through
 // Bright, since leaves are dark and thin; what is white stays below white by the exponential below.
 const glm::vec3 kSunIrradiance = 6.5f * glm::vec3(1.0f, 0.95f, 0.86f);
 const glm::vec3 kSkyRadiance = 1.1f * glm::vec3(0.86f, 0.95f, 1.05f);
 constexpr float kGroundShadow = 0.32f;  ///< alpha of a full shadow on the ground
-
-/// A model alone in an Embree scene.
-class ModelScene {
- public:
-  static Result<ModelScene> create(const mesh::Model& model) {
-    ModelScene scene;
-    scene.m_model = &model;
-    scene.m_device.reset(rtcNewDevice(nullptr));
-    if (!scene.m_device) return Error::failed("Embree cannot start", "ray tracing", "Free some memory.");
-    scene.m_scene.reset(rtcNewScene(scene.m_device.get()));
-    const RTCGeometry geometry = rtcNewGeometry(scene.m_device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3),
-                                             model.positions.size());
-    void* corners = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3),
-                                            model.triangles.size());
-    if (vertices == nullptr || corners == nullptr) {
-      rtcReleaseGeometry(geometry);
-      return Error::failed("there is not enough memory for a plant's picture", model.name, "Use a simpler mesh.");
-    }
-    std::memcpy(vertices, model.positions.data(), model.positions.size() * sizeof(glm::vec3));
-    std::memcpy(corners, model.triangles.data(), model.triangles.size() * sizeof(glm::uvec3));
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene.m_scene.get(), geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene.m_scene.get());
-    return scene;
-  }
-
-  struct Found {
-    bool any = false;
-    float t = 0.0f, u = 0.0f, v = 0.0f;
-    std::uint32_t triangle = 0;
-    mesh::SurfaceSample surface;
-  };
-  /// The nearest surface that is more opaque than `chance`.
-  Found nearest(const glm::vec3& origin, const glm::vec3& direction, float start, float chance) const {
-    Found found;
-    float near = start;
-    for (int leaf = 0; leaf < kMostLeaves; ++leaf) {
-      RTCRayHit ray{};
-      ray.ray = {origin.x, origin.y, origin.z, near, direction.x, direction.y, direction.z, 0.0f, kInfinity, ~0u, 0, 0};
-      ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-      RTCIntersectContext context = packetContext(RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
-      rtcIntersect1(m_scene.get(), &context, &ray);
-      if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return found;
-      found.surface = mesh::surfaceAt(*m_model, ray.hit.primID, ray.hit.u, ray.hit.v);
-      if (found.surface.alpha > chance) {
-        found.any = true;
-        found.t = ray.ray.tfar;
-        found.u = ray.hit.u;
-        found.v = ray.hit.v;
-        found.triangle = ray.hit.primID;
-        return found;
-      }
-      near = std::nextafter(ray.ray.tfar * (1.0f + 1e-6f), kInfinity);
-    }
-    return found;
-  }
-
- private:
-  const mesh::Model* m_model = nullptr;
-  DevicePtr m_device;  ///< before the scene, which goes first
-  ScenePtr m_scene;
-};
 
 /// Orthographic, framed on the vertices as they are seen.
 struct View {
@@ -219,12 +153,6 @@ Result<Thumbnail> drawThumbnail(const mesh::Model& model, const ThumbnailOptions
   out.size = options.size;
   out.rgba.assign(static_cast<std::size_t>(options.size) * static_cast<std::size_t>(options.size) * 4, 0);
   if (model.empty()) return out;
-  const auto isFinite = [](const glm::vec3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-  };
-  if (!std::all_of(model.positions.begin(), model.positions.end(), isFinite)) {
-    return Error::badInput("a vertex is not finite", "plant " + model.name, "Export the mesh again.");
-  }
   SWARD_ASSIGN(const ModelScene scene, ModelScene::create(model));
   const View view(model, options);
   const Painter painter(model, scene, view);

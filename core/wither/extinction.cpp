@@ -132,14 +132,24 @@ double extinction(const Voxel& voxel, const glm::dvec3& l) {
   return std::sqrt(std::max(0.625 * trace * glm::dot(l, turned) + 0.375 * glm::dot(turned, turned), 0.0));
 }
 
+std::array<float, 6> sectionForm(const Voxel& voxel) {
+  const std::array<float, 6>& s = voxel.spread;
+  const float around = std::max(voxel.density - (s[0] + s[3] + s[5]), 0.0f) / 3.0f;
+  const float xx = s[0] + around, yy = s[3] + around, zz = s[5] + around, xy = s[1], xz = s[2], yz = s[4];
+  const float five = 0.625f * (xx + yy + zz);
+  return {five * xx + 0.375f * (xx * xx + xy * xy + xz * xz), five * xy + 0.375f * (xx * xy + xy * yy + xz * yz),
+          five * xz + 0.375f * (xx * xz + xy * yz + xz * zz), five * yy + 0.375f * (xy * xy + yy * yy + yz * yz),
+          five * yz + 0.375f * (xy * xz + yy * yz + yz * zz), five * zz + 0.375f * (xz * xz + yz * yz + zz * zz)};
+}
+
 double normalShare(const Voxel& voxel) {
-  if (voxel.normal == glm::vec3(0.0f) || !(voxel.density > 0.0f)) return 0.0;
-  const glm::dvec3 n(voxel.normal);
-  const auto s = [&](std::size_t i) { return static_cast<double>(voxel.spread[i]); };
-  const double form = n.x * n.x * s(0) + n.y * n.y * s(3) + n.z * n.z * s(5) +
-                      2.0 * (n.x * n.y * s(1) + n.x * n.z * s(2) + n.y * n.z * s(4));
-  const double trace = s(0) + s(3) + s(5);
-  return trace > 0.0 ? std::clamp(1.5 * form / trace - 0.5, 0.0, 1.0) : 0.0;
+  const glm::vec3& n = voxel.normal;
+  const std::array<float, 6>& s = voxel.spread;
+  if (n == glm::vec3(0.0f) || !(voxel.density > 0.0f)) return 0.0;
+  const float form = n.x * n.x * s[0] + n.y * n.y * s[3] + n.z * n.z * s[5] +
+                     2.0f * (n.x * n.y * s[1] + n.x * n.z * s[2] + n.y * n.z * s[4]);
+  const float trace = s[0] + s[3] + s[5];
+  return trace > 0.0f ? static_cast<double>(std::clamp(1.5f * form / trace - 0.5f, 0.0f, 1.0f)) : 0.0;
 }
 
 Result<TexelExtinction> TexelExtinction::create(const Texel& texel, const glm::dvec3& l, const JobContext& job) {

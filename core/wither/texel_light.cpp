@@ -2,209 +2,165 @@
 
 #include "base/parallel.h"
 #include "wither/extinction.h"
+#include "wither/light_sweep.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <utility>
 
 namespace sward::wither {
 namespace {
 
-/// A depth of 8 leaves 3e-4 of the light: under half a step of the ten bits that a renderer keeps of its root.
-constexpr double kEnoughDepth = 8.0;
-constexpr std::size_t kGrain = 512;
-constexpr int kRings = 3, kPerRing = 5;
-constexpr int kSkyDirections = kRings * kPerRing;
+constexpr std::size_t kGrain = 4096;
+constexpr std::size_t kRings = 3, kPerRing = 5;
+constexpr std::size_t kSkyDirections = kRings * kPerRing;
 
 /// Directions of equal cosine-weighted solid angle over the upper hemisphere (Malley: the disc, in rings of equal
 /// area), each ring turned against the one below.
 std::array<glm::dvec3, kSkyDirections> skyDirections() {
   std::array<glm::dvec3, kSkyDirections> directions;
-  for (int ring = 0; ring < kRings; ++ring) {
+  for (std::size_t k = 0; k < kSkyDirections; ++k) {
+    const auto ring = static_cast<double>(k / kPerRing), i = static_cast<double>(k % kPerRing);
     const double radius = std::sqrt((ring + 0.5) / kRings);
-    for (int i = 0; i < kPerRing; ++i) {
-      const double azimuth = 2.0 * std::numbers::pi * (i + 0.37 * ring) / kPerRing;
-      directions[static_cast<std::size_t>(ring * kPerRing + i)] = {
-          radius * std::cos(azimuth), radius * std::sin(azimuth), std::sqrt(1.0 - radius * radius)};
-    }
+    const double azimuth = 2.0 * std::numbers::pi * (i + 0.37 * ring) / kPerRing;
+    directions[k] = {radius * std::cos(azimuth), radius * std::sin(azimuth), std::sqrt(1.0 - radius * radius)};
   }
   return directions;
 }
 
-glm::dvec3 centreOf(const TexelGrid& grid, const glm::u16vec3& place) {
-  return (glm::dvec3(place) + 0.5) * grid.voxelM();
-}
-
-/// How far a leaf's own voxel reaches along a direction: the march starts where it ends.
-double leadOf(const TexelGrid& grid, const glm::dvec3& l) {
-  const glm::dvec3 cells = glm::abs(l) / grid.voxelM();
-  return 1.0 / std::max(cells.x, std::max(cells.y, cells.z));
-}
-
-double transmitted(const Texel& texel, const TexelExtinction& medium, const glm::dvec3& from, const glm::dvec3& l,
-                   double leadM) {
-  return std::exp(-opticalDepth(texel, medium, from + leadM * l, l, kEnoughDepth));
-}
-
-/// A texel and, for what is far, a coarse level of it, toward one light.
-class SunMarch {
+/// What of a texel's voxels counts for light, wherever it comes from, and what they see of the sky; row by row.
+class SkySweep {
  public:
-  static Result<SunMarch> create(const Texel& texel, const Texel* coarse, const glm::dvec3& l, const JobContext& job) {
-    SunMarch march(texel, coarse, l);
-    SWARD_ASSIGN(march.m_fine, TexelExtinction::create(texel, l, job));
-    if (coarse != nullptr) {
-      SWARD_ASSIGN(march.m_far, TexelExtinction::create(*coarse, l, job));
-    }
-    return march;
-  }
-  double transmitted(const glm::dvec3& from, double leadM) const {
-    const glm::dvec3 start = from + leadM * m_l;
-    if (m_coarse == nullptr) return std::exp(-opticalDepth(*m_texel, m_fine, start, m_l, kEnoughDepth));
-    const double near = opticalDepth(*m_texel, m_fine, start, m_l, kEnoughDepth, m_nearM);
-    const glm::dvec3 beyond = start + m_nearM * m_l;
-    if (near >= kEnoughDepth || beyond.z >= m_texel->grid().heightM) return std::exp(-near);
-    return std::exp(-near - opticalDepth(*m_coarse, m_far, beyond, m_l, kEnoughDepth - near));
+  SkySweep(const Texel& texel, const TexelRows& rows)
+      : m_rows(rows),
+        m_front(texel.size(), 0.0f),
+        m_back(texel.size(), 0.0f),
+        m_ground(static_cast<std::size_t>(texel.grid().columns) * static_cast<std::size_t>(texel.grid().columns),
+                 0.0f) {
+    for (std::vector<float>& buffer : m_buffers) buffer.resize(texel.size());
+    for (std::vector<float>& form : m_form) form.resize(texel.size());
+    for (std::vector<float>& side : m_sides) side.resize(texel.size());
   }
 
- private:
-  SunMarch(const Texel& texel, const Texel* coarse, const glm::dvec3& l)
-      : m_texel(&texel), m_coarse(coarse), m_l(l), m_nearM(kNearVoxels * texel.grid().voxelM().x) {}
-  const Texel *m_texel, *m_coarse;
-  glm::dvec3 m_l;
-  double m_nearM;
-  TexelExtinction m_fine, m_far;
-};
-
-/// A voxel's part of leaves that have its normal, and the irradiance that a unit beam from l gives its two sides.
-struct Facing {
-  double front = 0.0, back = 0.0;
-};
-Facing facing(const glm::vec3& normal, double share, const glm::dvec3& l) {
-  const double cosine = glm::dot(glm::dvec3(normal), l);
-  const double any = 0.25 * (1.0 - share);  // leaves of every direction: half of |n.l| = 1/2 on either side
-  return {share * std::max(cosine, 0.0) + any, share * std::max(-cosine, 0.0) + any};
-}
-
-/// What the voxels of a level see of one part of the sky after another.
-Result<void> marchSky(const Texel& texel, const TexelExtinction& medium, const glm::dvec3& l, const JobContext& job,
-                      TexelSky& sky) {
-  const TexelGrid& grid = texel.grid();
-  const double lead = leadOf(grid, l);
-  const std::span<const Voxel> voxels = texel.voxels();
-  const std::span<const glm::u16vec3> places = texel.places();
-  const double each = 1.0 / kSkyDirections;
-  base::parallelFor(job, voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const double seen = transmitted(texel, medium, centreOf(grid, places[i]), l, lead) * each / l.z;
-      const Facing sides = facing(voxels[i].normal, normalShare(voxels[i]), l);
-      sky.front[i] += static_cast<float>(seen * sides.front);
-      sky.back[i] += static_cast<float>(seen * sides.back);
-    }
-  });
-  const auto columns = static_cast<std::size_t>(grid.columns);
-  base::parallelFor(job, columns, 8, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t y = begin; y < end; ++y) {
-      for (std::size_t x = 0; x < columns; ++x) {
-        const glm::dvec3 foot((static_cast<double>(x) + 0.5) * grid.voxelM().x,
-                              (static_cast<double>(y) + 0.5) * grid.voxelM().y, 0.0);
-        sky.ground[y * columns + x] += static_cast<float>(transmitted(texel, medium, foot, l, 0.0) * each);
-      }
-    }
-  });
-  if (job.cancelled()) return Error::cancelled();
-  return {};
-}
-
-}  // namespace
-
-Result<TexelSky> marchedSky(const Texel& texel, const JobContext& job) {
-  TexelSky sky;
-  sky.front.assign(texel.size(), 0.0f);
-  sky.back.assign(texel.size(), 0.0f);
-  sky.ground.assign(static_cast<std::size_t>(texel.grid().columns) * static_cast<std::size_t>(texel.grid().columns),
-                    0.0f);
-  for (const glm::dvec3& l : skyDirections()) {
-    SWARD_ASSIGN(const TexelExtinction medium, TexelExtinction::create(texel, l, job));
-    SWARD_TRY(marchSky(texel, medium, l, job, sky));
-  }
-  return sky;
-}
-
-Result<TexelSky> finerSky(const Texel& texel, const Texel& coarse, const TexelSky& coarseSky, const JobContext& job) {
-  const TexelGrid &fine = texel.grid(), &grid = coarse.grid();
-  const int ratio = fine.columns / grid.columns;
-  if (ratio < 1 || grid.columns * ratio != fine.columns || grid.layers * ratio != fine.layers) {
-    return Error::failed("the levels of a texel do not halve one another", "texel");
-  }
-  TexelSky sky;
-  sky.front.assign(texel.size(), 0.0f);
-  sky.back.assign(texel.size(), 0.0f);
-  const auto columns = static_cast<std::size_t>(fine.columns);
-  sky.ground.assign(columns * columns, 0.0f);
-  const std::span<const Voxel> voxels = texel.voxels();
-  const std::span<const glm::u16vec3> places = texel.places();
-  base::parallelFor(job, voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::int64_t under = coarse.find(glm::ivec3(places[i]) / ratio);
-      if (under < 0) continue;
-      const auto c = static_cast<std::size_t>(under);
-      // The two sides of the coarse voxel see so much of the sky together; the fine leaf turns its own way in it.
-      const double open = double{coarseSky.front[c]} + double{coarseSky.back[c]};
-      const double up = 0.5 * (1.0 + double{voxels[i].normal.z});
-      sky.front[i] = static_cast<float>(open * up);
-      sky.back[i] = static_cast<float>(open * (1.0 - up));
-    }
-  });
-  for (std::size_t y = 0; y < columns; ++y) {
-    for (std::size_t x = 0; x < columns; ++x) {
-      const auto r = static_cast<std::size_t>(ratio);
-      sky.ground[y * columns + x] = coarseSky.ground[y / r * static_cast<std::size_t>(grid.columns) + x / r];
-    }
-  }
-  if (job.cancelled()) return Error::cancelled();
-  return sky;
-}
-
-Result<LitTexel> lightTexel(const Texel& texel, const Texel* coarse, const TexelSky& sky, const TexelLight& light,
-                            const JobContext& job) {
-  const TexelGrid& grid = texel.grid();
-  const std::span<const Voxel> voxels = texel.voxels();
-  const std::span<const glm::u16vec3> places = texel.places();
-  LitTexel lit;
-  lit.voxels.resize(texel.size());
-  const auto columns = static_cast<std::size_t>(grid.columns);
-  lit.groundSun.assign(columns * columns, 0.0f);
-  const bool sunUp = light.toSun.z > 0.0;
-  const double lead = leadOf(grid, light.toSun);
-  SWARD_ASSIGN(const SunMarch march, SunMarch::create(texel, coarse, light.toSun, job));
-  base::parallelFor(job, voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Voxel& voxel = voxels[i];
-      const double through = sunUp ? march.transmitted(centreOf(grid, places[i]), lead) : 0.0;
-      const Facing sides = facing(voxel.normal, normalShare(voxel), light.toSun);
-      const glm::dvec3 sun = light.sunIrradiance * (through / std::numbers::pi);
-      // Irradiance over pi of either side; skyRadiance times the share of the sky that a side sees.
-      const glm::dvec3 front = sun * sides.front + light.skyRadiance * double{sky.front[i]};
-      const glm::dvec3 back = sun * sides.back + light.skyRadiance * double{sky.back[i]};
-      const glm::dvec3 reflected(voxel.diffuse), passed(voxel.transmitted);
-      lit.voxels[i] = {glm::vec3(reflected * front + passed * back), glm::vec3(reflected * back + passed * front),
-                       static_cast<float>(through)};
-    }
-  });
-  if (sunUp) {
-    base::parallelFor(job, columns, 8, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t y = begin; y < end; ++y) {
-        for (std::size_t x = 0; x < columns; ++x) {
-          const glm::dvec3 foot((static_cast<double>(x) + 0.5) * grid.voxelM().x,
-                                (static_cast<double>(y) + 0.5) * grid.voxelM().y, 0.0);
-          lit.groundSun[y * columns + x] = static_cast<float>(march.transmitted(foot, 0.0));
-        }
+  void prepare(const Texel& texel, const JobContext& job) {
+    base::parallelFor(job, texel.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const Voxel& voxel = texel.voxels()[m_rows.order()[i]];
+        const std::array<float, 6> form = sectionForm(voxel);
+        for (std::size_t k = 0; k < form.size(); ++k) m_form[k][i] = form[k];
+        const auto share = static_cast<float>(normalShare(voxel));
+        const glm::vec3 n = share * voxel.normal;
+        m_sides[0][i] = n.x, m_sides[1][i] = n.y, m_sides[2][i] = n.z, m_sides[3][i] = 0.25f * (1.0f - share);
       }
     });
   }
+
+  /// A ring at once: what is known of a voxel is read from memory once for all of its directions.
+  Result<void> add(std::span<const glm::dvec3, kPerRing> ring, const JobContext& job) {
+    base::parallelFor(job, m_front.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t d = 0; d < kPerRing; ++d) setExtinctions(ring[d], m_buffers[d].data(), begin, end);
+    });
+    for (std::size_t d = 0; d < kPerRing; ++d) {
+      std::vector<float>& spare = m_buffers.back();
+      SWARD_TRY(sweepDepths(m_rows, m_buffers[d], ring[d], m_depths, spare, job));
+      std::swap(m_buffers[d], spare);
+      addGround();
+    }
+    base::parallelFor(job, m_front.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t d = 0; d < kPerRing; ++d) addSeen(ring[d], m_buffers[d].data(), begin, end);
+    });
+    return {};
+  }
+
+  /// In the order of the voxels.
+  TexelSky sky(const JobContext& job) {
+    TexelSky sky{std::vector<float>(m_front.size()), std::vector<float>(m_back.size()), std::move(m_ground)};
+    base::parallelFor(job, m_front.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        sky.front[m_rows.order()[i]] = m_front[i];
+        sky.back[m_rows.order()[i]] = m_back[i];
+      }
+    });
+    return sky;
+  }
+
+ private:
+  void setExtinctions(const glm::dvec3& l, float* extinctions, std::size_t begin, std::size_t end) const {
+    const auto x = static_cast<float>(l.x), y = static_cast<float>(l.y), z = static_cast<float>(l.z);
+    const float *xx = m_form[0].data(), *xy = m_form[1].data(), *xz = m_form[2].data(), *yy = m_form[3].data(),
+                *yz = m_form[4].data(), *zz = m_form[5].data();
+    for (std::size_t i = begin; i < end; ++i) {
+      const float square =
+          x * (xx[i] * x + 2.0f * (xy[i] * y + xz[i] * z)) + y * (yy[i] * y + 2.0f * yz[i] * z) + zz[i] * z * z;
+      extinctions[i] = std::sqrt(std::max(square, 0.0f));
+    }
+  }
+  void addGround() {
+    constexpr float kEach = 1.0f / kSkyDirections;
+    for (std::size_t i = 0; i < m_ground.size(); ++i) m_ground[i] += kEach * transmittanceOf(m_depths[i]);
+  }
+  void addSeen(const glm::dvec3& l, const float* depths, std::size_t begin, std::size_t end) {
+    const auto each = static_cast<float>(1.0 / (kSkyDirections * l.z));
+    const auto x = static_cast<float>(l.x), y = static_cast<float>(l.y), z = static_cast<float>(l.z);
+    const float *nx = m_sides[0].data(), *ny = m_sides[1].data(), *nz = m_sides[2].data(), *any = m_sides[3].data();
+    float *front = m_front.data(), *back = m_back.data();
+    for (std::size_t i = begin; i < end; ++i) {
+      const float seen = each * transmittanceOf(depths[i]);
+      const float facing = nx[i] * x + ny[i] * y + nz[i] * z;  // leafSides
+      front[i] += seen * (std::max(facing, 0.0f) + any[i]);
+      back[i] += seen * (std::max(-facing, 0.0f) + any[i]);
+    }
+  }
+
+  const TexelRows& m_rows;
+  std::array<std::vector<float>, 6> m_form;   ///< sectionForm
+  std::array<std::vector<float>, 4> m_sides;  ///< the normal times its share, and what falls on either side anyhow
+  /// Extinctions toward a ring's directions, which one after another become depths; and one to spare.
+  std::array<std::vector<float>, kPerRing + 1> m_buffers;
+  std::vector<float> m_depths;  ///< of the ground
+  std::vector<float> m_front, m_back, m_ground;
+};
+
+}  // namespace
+
+Result<TexelSky> sweptSky(const Texel& texel, const JobContext& job) {
+  SWARD_ASSIGN(const TexelRows rows, TexelRows::create(texel, job));
+  SkySweep sweep(texel, rows);
+  sweep.prepare(texel, job);
+  const auto directions = skyDirections();
+  for (std::size_t ring = 0; ring < kRings; ++ring) {
+    SWARD_TRY(sweep.add(std::span(directions).subspan(ring * kPerRing).first<kPerRing>(), job));
+  }
+  TexelSky sky = sweep.sky(job);
   if (job.cancelled()) return Error::cancelled();
-  return lit;
+  return sky;
+}
+
+Result<SunReach> sunReach(const Texel& texel, const glm::dvec3& toSun, const JobContext& job) {
+  const auto columns = static_cast<std::size_t>(texel.grid().columns);
+  SunReach reach{std::vector<float>(texel.size(), 0.0f), std::vector<float>(columns * columns, 0.0f)};
+  if (!(toSun.z > 0.0)) return reach;
+  SWARD_ASSIGN(const TexelRows rows, TexelRows::create(texel, job));
+  const std::span<const std::uint32_t> order = rows.order();
+  // Voxels are read in their own order, fast; what is left of each is small enough to be put in rows afterwards.
+  base::parallelFor(job, texel.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    const glm::vec3 l(toSun);
+    for (std::size_t i = begin; i < end; ++i) reach.voxels[i] = sectionToward(texel.voxels()[i], l);
+  });
+  std::vector<float> extinctions(texel.size()), depths(texel.size());
+  base::parallelFor(job, texel.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) extinctions[i] = reach.voxels[order[i]];
+  });
+  SWARD_TRY(sweepDepths(rows, extinctions, toSun, reach.ground, depths, job));
+  base::parallelFor(job, texel.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) reach.voxels[order[i]] = transmittanceOf(depths[i]);
+  });
+  for (float& ground : reach.ground) ground = transmittanceOf(ground);
+  if (job.cancelled()) return Error::cancelled();
+  return reach;
 }
 
 }  // namespace sward::wither

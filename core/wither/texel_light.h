@@ -4,6 +4,8 @@
 #include "base/result.h"
 #include "wither/texel.h"
 
+#include <algorithm>
+#include <numbers>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -17,6 +19,17 @@ struct TexelLight {
   glm::dvec3 skyRadiance{0.0};      ///< mean over the upper hemisphere
 };
 
+/// Irradiance that a unit beam from l gives the two sides of leaves of which a share has the normal; the others face
+/// every way, so that half of the mean |n.l| = 1/2 falls on either side.
+struct LeafSides {
+  float front = 0.0f, back = 0.0f;
+};
+inline LeafSides leafSides(const glm::vec3& normal, float share, const glm::vec3& l) {
+  const float cosine = normal.x * l.x + normal.y * l.y + normal.z * l.z;
+  const float any = 0.25f * (1.0f - share);
+  return {share * std::max(cosine, 0.0f) + any, share * std::max(-cosine, 0.0f) + any};
+}
+
 /// How much of the sky the sides of a texel's voxels see, whatever the light: cosine-weighted shares of the upper
 /// hemisphere over the side that the normal points to and over the other (of a leaf in the open, of normal n:
 /// (1 + n.z) / 2 and (1 - n.z) / 2); and of the ground under every column.
@@ -24,29 +37,39 @@ struct TexelSky {
   std::vector<float> front, back;  ///< one a voxel
   std::vector<float> ground;       ///< [y][x]
 };
-/// Marches fifteen directions of the upper hemisphere (equal cosine-weighted parts, the same for every voxel). Errors:
-/// Error::cancelled().
-Result<TexelSky> marchedSky(const Texel& texel, const JobContext& job);
-/// The same of a finer level, looked up in a coarser one's: skylight changes slowly from place to place, and each leaf
-/// keeps its own inclination. Errors: the grids are no levels of one texel; Error::cancelled().
-Result<TexelSky> finerSky(const Texel& texel, const Texel& coarse, const TexelSky& coarseSky, const JobContext& job);
+/// From fifteen directions of the upper hemisphere (equal cosine-weighted parts, the same for every voxel), each one
+/// sweep (sweepDepths). Errors: Error::cancelled().
+Result<TexelSky> sweptSky(const Texel& texel, const JobContext& job);
 
-/// Radiance that a voxel's leaves send to an eye on their normal's side and on the other: sunlight that marched through
-/// the texel to them (transmittance exp(-tau), science.md section 1), reflected where the sun stands on the eye's side,
-/// else transmitted; and skylight in the same way.
+/// How much of the sun reaches a texel: transmittances exp(-tau) (science.md section 1), 0 to 1; all 0 with the sun at
+/// or under the horizon.
+struct SunReach {
+  std::vector<float> voxels;  ///< one a voxel, from one voxel out of its middle on (sweepDepths)
+  std::vector<float> ground;  ///< from the middle of each column's foot, [y][x]
+};
+/// One sweep. `toSun`: unit. Errors: Error::cancelled().
+Result<SunReach> sunReach(const Texel& texel, const glm::dvec3& toSun, const JobContext& job);
+
+/// Radiance that a voxel's leaves send to an eye on their normal's side and on the other: sunlight that reaches them,
+/// reflected where the sun stands on the eye's side, else transmitted; and skylight in the same way.
 struct LitVoxel {
   glm::vec3 front{0.0f}, back{0.0f};  ///< linear RGB radiance
-  float sun = 0.0f;                   ///< transmittance toward the sun, 0 to 1; 0 with the sun under the horizon
 };
-struct LitTexel {
-  std::vector<LitVoxel> voxels;  ///< one a voxel of the texel
-  std::vector<float> groundSun;  ///< transmittance from the ground toward the sun, [y][x]
+class LeafShading {
+ public:
+  explicit LeafShading(const TexelLight& light)
+      : m_toSun(light.toSun), m_sun(light.sunIrradiance / std::numbers::pi), m_sky(light.skyRadiance) {}
+  /// `share`: normalShare(voxel). `skyFront`, `skyBack`: its TexelSky. `sun`: its SunReach.
+  LitVoxel operator()(const Voxel& voxel, float share, float skyFront, float skyBack, float sun) const {
+    const LeafSides sides = leafSides(voxel.normal, share, m_toSun);
+    // Irradiance over pi of either side; the sky's radiance times the share of the sky that a side sees.
+    const glm::vec3 front = m_sun * (sun * sides.front) + m_sky * skyFront;
+    const glm::vec3 back = m_sun * (sun * sides.back) + m_sky * skyBack;
+    return {voxel.diffuse * front + voxel.transmitted * back, voxel.diffuse * back + voxel.transmitted * front};
+  }
+
+ private:
+  glm::vec3 m_toSun, m_sun, m_sky;
 };
-/// Marches every voxel and column toward the sun: the voxel's own leaf does not shade it, the march starts one voxel
-/// out. `coarse`, a level of the same texel or null, serves from kNearVoxels on: what hides the sun from farther away
-/// is known by its opacity, which levels keep. Errors: Error::cancelled().
-Result<LitTexel> lightTexel(const Texel& texel, const Texel* coarse, const TexelSky& sky, const TexelLight& light,
-                            const JobContext& job);
-inline constexpr double kNearVoxels = 12.0;
 
 }  // namespace sward::wither

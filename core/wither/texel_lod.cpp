@@ -17,58 +17,91 @@ constexpr std::size_t kBricks = 64;  ///< of the coarser texel, made by one task
 
 using Children = std::array<const Voxel*, 8>;  ///< bit 0 of the index x, bit 1 y, bit 2 z; null: empty
 
-/// -ln of the mean of exp(-depth) over four columns; depths of any size.
+/// -ln of the mean of exp(-depth) over four columns; depths of any size: tails of splats are as thin as 1e-30, and the
+/// logarithm of what rounds to 1 would call them nothing.
 double meanDepth(const std::array<double, 4>& depths) {
   const double least = *std::min_element(depths.begin(), depths.end());
-  double sum = 0.0;
-  for (const double depth : depths) sum += std::exp(least - depth);
-  return least - std::log(0.25 * sum);
+  double hidden = 0.0;
+  for (const double depth : depths) hidden -= std::expm1(least - depth);
+  return least - std::log1p(-0.25 * hidden);
 }
 
-/// Extinction along an axis of what lets through as much as the children do, 1/m.
-double extinctionAlong(const Children& children, int axis, double thicknessM) {
+/// extinction() along the three axes.
+glm::dvec3 axisExtinctions(const std::array<double, 6>& s) {
+  const double trace = 0.625 * (s[0] + s[3] + s[5]);
+  return glm::sqrt(glm::dvec3(trace * s[0] + 0.375 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]),
+                              trace * s[3] + 0.375 * (s[1] * s[1] + s[3] * s[3] + s[4] * s[4]),
+                              trace * s[5] + 0.375 * (s[2] * s[2] + s[4] * s[4] + s[5] * s[5])));
+}
+
+/// Of the eight children's extinctions along an axis, that of what lets through as much as they do, 1/m.
+double extinctionAlong(const std::array<glm::dvec3, 8>& children, int axis, double thicknessM) {
   const std::size_t step = std::size_t{1} << axis;
-  glm::dvec3 l(0.0);
-  l[axis] = 1.0;
   std::array<double, 4> depths{};
   std::size_t column = 0;
   for (std::size_t i = 0; i < 8; ++i) {
     if ((i & step) != 0) continue;
-    for (const Voxel* voxel : {children[i], children[i + step]}) {
-      if (voxel != nullptr) depths[column] += extinction(*voxel, l) * thicknessM;
-    }
-    ++column;
+    depths[column++] = (children[i][axis] + children[i + step][axis]) * thicknessM;
   }
   return meanDepth(depths) / (2.0 * thicknessM);
+}
+
+/// Of x_i (form x)_i = square_i, where `missed` is left at x: the step that would meet it if it were linear. What is 0
+/// stays so.
+glm::dvec3 newtonStep(const glm::dmat3& form, const glm::dvec3& x, const glm::dvec3& reached, const glm::dvec3& missed,
+                      const glm::dvec3& first) {
+  glm::dmat3 slope(1.0);  // [column][row]
+  glm::dvec3 right(0.0);
+  for (int i = 0; i < 3; ++i) {
+    if (!(first[i] > 0.0)) continue;
+    right[i] = missed[i];
+    for (int j = 0; j < 3; ++j) slope[j][i] = x[i] * form[i][j] + (i == j ? reached[i] : 0.0);
+  }
+  const glm::dvec3 bc = glm::cross(slope[1], slope[2]);
+  const double det = glm::dot(slope[0], bc);
+  return glm::dvec3(glm::dot(right, bc), glm::dot(right, glm::cross(slope[2], slope[0])),
+                    glm::dot(right, glm::cross(slope[0], slope[1]))) /
+         det;
 }
 
 /// S with rows and columns scaled so that the extinctions along the axes are `sigma`; density its trace.
 ///
 /// With r the correlations of S, its diagonal x has to meet sigma_i^2 = x_i (5 sum_j x_j + 3 sum_j r_ij^2 x_j) / 8. The
 /// step x_i <- x_i sigma_i / sigma_i(x) takes log x by half of what the matrix 5 + 3 r^2 (positive, by Schur) lets it
-/// miss: the error of log x falls by half each time or faster, so twenty steps reach the precision of floats.
+/// miss: the error of log x falls by half each time or faster. Two such steps come near enough for Newton's, whose
+/// error is squared each time; should one of them leave the positive numbers, the first kind goes on.
 void scaleTo(const std::array<double, 6>& spread, const glm::dvec3& sigma, Voxel& voxel) {
   constexpr std::array<std::array<std::size_t, 3>, 3> kAt{{{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}};
-  const glm::dvec3 first(spread[0], spread[3], spread[5]);
-  glm::dmat3 square(0.0);  // of the correlations
+  // An axis along which nothing is to be seen has nothing.
+  glm::dvec3 first(spread[0], spread[3], spread[5]);
+  for (int i = 0; i < 3; ++i) first[i] = sigma[i] > 0.0 ? first[i] : 0.0;
+  glm::dmat3 form(0.0);  // sigma^2 = x (form x)
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       const double s = spread[kAt[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]];
-      if (first[i] > 0.0 && first[j] > 0.0) square[i][j] = s * s / (first[i] * first[j]);
+      const bool held = first[i] > 0.0 && first[j] > 0.0;
+      form[i][j] = 0.625 + (held ? 0.375 * (s * s / (first[i] * first[j])) : 0.0);
     }
   }
+  const glm::dvec3 square = sigma * sigma;  // above 0 where `first` is
   glm::dvec3 x = first;
-  for (int step = 0; step < 20; ++step) {
-    double change = 0.0;
-    const glm::dvec3 before = x;
+  for (int step = 0; step < 40; ++step) {
+    const glm::dvec3 reached = form * x;
+    const glm::dvec3 missed = square - x * reached;
+    double most = 0.0;
     for (int i = 0; i < 3; ++i) {
-      if (!(before[i] > 0.0)) continue;
-      const double now =
-          std::sqrt(before[i] * (0.625 * (before.x + before.y + before.z) + 0.375 * glm::dot(square[i], before)));
-      x[i] = before[i] * sigma[i] / now;
-      change = std::max(change, std::abs(sigma[i] / now - 1.0));
+      if (first[i] > 0.0) most = std::max(most, std::abs(missed[i]) / square[i]);
     }
-    if (change < 1e-7) break;
+    if (!(most > 1e-8)) break;
+    glm::dvec3 next(0.0);
+    if (step >= 2) next = x + newtonStep(form, x, reached, missed, first);
+    for (int i = 0; i < 3; ++i) {
+      if (!(first[i] > 0.0)) next[i] = 0.0;
+      if (first[i] > 0.0 && !(next[i] > 0.1 * x[i] && next[i] < 10.0 * x[i])) {
+        next[i] = x[i] * sigma[i] / std::sqrt(x[i] * reached[i]);
+      }
+    }
+    x = next;
   }
   glm::dvec3 scale(0.0);
   for (int i = 0; i < 3; ++i) scale[i] = first[i] > 0.0 ? std::sqrt(x[i] / first[i]) : 0.0;
@@ -93,11 +126,10 @@ std::array<double, 6> wholeSpread(const Voxel& voxel) {
 /// A voxel whose leaves stand side by side.
 Voxel hiding(const Voxel& voxel, const glm::dvec3& size) {
   constexpr double kMost = 0.99;  // of what is seen along an axis: no voxel is wholly opaque
+  const glm::dvec3 extinctions = axisExtinctions(wholeSpread(voxel));
   glm::dvec3 sigma(0.0);
   for (int axis = 0; axis < 3; ++axis) {
-    glm::dvec3 l(0.0);
-    l[axis] = 1.0;
-    const double depth = extinction(voxel, l) * size[axis];
+    const double depth = extinctions[axis] * size[axis];
     sigma[axis] = std::max(-std::log1p(-std::min(depth, kMost)), depth) / size[axis];
   }
   Voxel out = voxel;
@@ -107,16 +139,19 @@ Voxel hiding(const Voxel& voxel, const glm::dvec3& size) {
 
 Voxel merged(const Children& children, const glm::dvec3& voxelM) {
   LeafSums sums;
-  for (const Voxel* voxel : children) {
-    if (voxel == nullptr) continue;
-    sums.add(*voxel, static_cast<double>(voxel->density));
-    const std::array<double, 6> spread = wholeSpread(*voxel);
+  std::array<glm::dvec3, 8> extinctions;
+  for (std::size_t c = 0; c < 8; ++c) {
+    extinctions[c] = glm::dvec3(0.0);
+    if (children[c] == nullptr) continue;
+    sums.add(*children[c], static_cast<double>(children[c]->density));
+    const std::array<double, 6> spread = wholeSpread(*children[c]);
     for (std::size_t i = 0; i < 6; ++i) sums.spread[i] += spread[i] / 8.0;
+    extinctions[c] = axisExtinctions(spread);
   }
   Voxel voxel = sums.means();
   scaleTo(sums.spread,
-          {extinctionAlong(children, 0, voxelM.x), extinctionAlong(children, 1, voxelM.y),
-           extinctionAlong(children, 2, voxelM.z)},
+          {extinctionAlong(extinctions, 0, voxelM.x), extinctionAlong(extinctions, 1, voxelM.y),
+           extinctionAlong(extinctions, 2, voxelM.z)},
           voxel);
   return voxel;
 }

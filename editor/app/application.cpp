@@ -81,7 +81,7 @@ void Application::playSeason(double seconds) {
   const double elapsed = std::clamp(seconds - m_lastFrame, 0.0, 0.1);
   m_lastFrame = seconds;
   if (!m_ui.season.running) return;
-  advancePlay(m_ui.season, m_document->project().wither.ageing, elapsed);
+  advancePlay(m_ui.season, m_document->project(), elapsed);
   m_ui.lastMotion = seconds;
 }
 

@@ -2,6 +2,7 @@
 
 #include "choose.h"
 #include "bake/memory_size.h"
+#include "bake/withering.h"
 #include "gpu/context.h"
 #include "project/nearest.h"
 
@@ -51,6 +52,10 @@ Result<int> runBake(Program& program, const BakeRequest& request) {
   }
   for (const std::string& warning : report.warnings) warn(program, warning);
   say(program, bakeText(report) + "; the ground takes " + bytesText(bytes));
+  // Texels are two results; the layers' graph has some hundred, which --json lists.
+  if (bake::drawnAsTexels(project)) {
+    for (const bake::NodeReport& node : report.nodes) say(program, nodeText(node));
+  }
   if (program.common.json) {
     Json result = bakeJson(report);
     result["groundBytes"] = bytes;
@@ -67,7 +72,8 @@ void addBakeCommand(CLI::App& app, Program& program) {
   CLI::App* command =
       addCommand(app, program, "bake", "Fill the cache, so that rendering only has to draw",
                  "With --json, stdout lists every node of the bake graph: baked, from memory or disk, or\n"
-                 "skipped because something made from it was there; with seconds and bytes.\n\n"
+                 "skipped because something made from it was there; with seconds and bytes. A project drawn as\n"
+                 "texels has two: the blades at rest as points, and the texels of its weathering degree.\n\n"
                  "Examples:\n"
                  "  sward bake meadow.sward\n"
                  "  sward bake meadow.sward --json --set lights.count=24 > bake.json");

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <utility>
 
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
@@ -120,11 +121,11 @@ fs::path cacheFolder(const Program& program) {
   return program.common.cacheFolder.empty() ? bake::defaultCacheFolder() : fs::path(program.common.cacheFolder);
 }
 
-bake::Baker openBaker(const Program& program) {
+bake::Baker openBaker(const Program& program, const bake::Baker::Options& options) {
   auto cache = bake::DiskCache::open(cacheFolder(program));
-  if (cache.ok()) return bake::Baker(std::move(cache).value());
+  if (cache.ok()) return bake::Baker(std::move(cache).value(), options);
   warn(program, cache.error().text() + " Going on without one: nothing is kept for the next run.");
-  return bake::Baker();
+  return bake::Baker(std::nullopt, options);
 }
 
 ProgressBar::ProgressBar(const Program& program)
@@ -140,6 +141,12 @@ JobContext ProgressBar::job() {
   return job;
 }
 
+void ProgressBar::line(const std::string& text) {
+  const std::scoped_lock lock(m_mutex);
+  if (std::exchange(m_drawn, false)) std::fputs("\r\033[K", stderr);
+  say(m_program, text);
+}
+
 void ProgressBar::show(const std::string& stage, double fraction) {
   const std::scoped_lock lock(m_mutex);
   m_fraction = std::max(m_fraction, fraction);
@@ -151,7 +158,7 @@ void ProgressBar::show(const std::string& stage, double fraction) {
   const int full = static_cast<int>(m_fraction * kCells);
   const double spent = std::chrono::duration<double>(now - m_start).count();
   const std::string left =
-      m_fraction > 0.02 && spent > 1.0 ? ", " + fixed(spent / m_fraction - spent, 0) + " s left" : "";
+      m_fraction > 0.02 && spent > 1.0 ? ", " + leftText(spent / m_fraction - spent) + " left" : "";
   const std::string bar =
       std::string(static_cast<std::size_t>(full), '#') + std::string(static_cast<std::size_t>(kCells - full), '.');
   std::fprintf(stderr, "\r\033[K[%s] %3d %%%s  %s", bar.c_str(), static_cast<int>(100.0 * m_fraction), left.c_str(),
@@ -211,6 +218,12 @@ std::string bytesText(std::uint64_t bytes) {
   return fixed(static_cast<double>(bytes) / (1024.0 * 1024.0), 1) + " MiB";
 }
 
+std::string leftText(double seconds) {
+  if (seconds < 100.0) return fixed(seconds, 0) + " s";
+  if (seconds < 6000.0) return fixed(seconds / 60.0, 0) + " min";
+  return fixed(seconds / 3600.0, 1) + " h";
+}
+
 std::string bakeText(const bake::BakeReport& report) {
   int counts[4] = {};
   for (const bake::NodeReport& node : report.nodes) ++counts[static_cast<int>(node.state)];
@@ -220,6 +233,21 @@ std::string bakeText(const bake::BakeReport& report) {
   if (counts[3] > 0) text += ", " + std::to_string(counts[3]) + " not needed";
   if (rays > 0) text += ", " + fixed(1e-6 * static_cast<double>(rays), 1) + " million rays";
   return text + ", in " + secondsText(report.seconds);
+}
+
+std::string nodeText(const bake::NodeReport& node) {
+  const std::string name = "  " + node.kind + (node.what.empty() ? "" : ", " + node.what) + ": ";
+  switch (node.state) {
+    case bake::NodeReport::State::Baked:
+      return name + "baked in " + secondsText(node.seconds) + ", " + bytesText(node.bytes);
+    case bake::NodeReport::State::FromMemory:
+      return name + "from memory";
+    case bake::NodeReport::State::FromDisk:
+      return name + "from the cache in " + secondsText(node.seconds) + ", " + bytesText(node.bytes);
+    case bake::NodeReport::State::Skipped:
+      return name + "not needed";
+  }
+  return name;
 }
 
 Json bakeJson(const bake::BakeReport& report) {

@@ -63,7 +63,7 @@ Result<project::Project> loadProject(const Program& program, const std::string& 
 Result<void> checkProject(const Program& program, const project::Project& project);
 
 /// A baker on the cache that the options name; on none, with a warning, when that folder cannot be used.
-bake::Baker openBaker(const Program& program);
+bake::Baker openBaker(const Program& program, const bake::Baker::Options& options = {});
 std::filesystem::path cacheFolder(const Program& program);
 
 /// A bar on a terminal; silent elsewhere and with --quiet. Ends its line when it goes.
@@ -74,6 +74,8 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
   JobContext job();
+  /// Says a line above the bar.
+  void line(const std::string& text);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -97,9 +99,12 @@ class StopWatch {
     m_start = now;
     return seconds;
   }
+  /// Seconds since it was made.
+  double total() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - m_made).count(); }
 
  private:
   std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point m_made = m_start;
 };
 
 /// Checks that a file can be put there: the folder exists and may be written, the target is no folder or device.
@@ -111,9 +116,13 @@ std::string shellText(const std::vector<std::string>& words);
 /// "1.24 s", "38 ms"; "12.3 MiB".
 std::string secondsText(double seconds);
 std::string bytesText(std::uint64_t bytes);
+/// A time that is still to come: "40 s", "12 min", "3.2 h".
+std::string leftText(double seconds);
 
 /// One sentence for people about what a bake did, and the same as JSON with every node.
 std::string bakeText(const bake::BakeReport& report);
+/// The same about one node.
+std::string nodeText(const bake::NodeReport& node);
 Json bakeJson(const bake::BakeReport& report);
 
 }  // namespace sward::editor

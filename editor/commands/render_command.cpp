@@ -1,98 +1,16 @@
 #include "choose.h"
 #include "commands.h"
 #include "methods.h"
+#include "render_plan.h"
 
+#include "export/frame_files.h"
 #include "gpu/context.h"
-#include "image/io.h"
-#include "project/limits.h"
-#include "project/nearest.h"
 #include "render/frame_plan.h"
-#include "render/renderer.h"
-
-#include <charconv>
-#include <cmath>
-#include <sstream>
 
 namespace sward::editor {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct RenderRequest {
-  std::string project, output, view, size, sun, maxError, device = "auto";
-  std::vector<std::string> methods;
-  std::optional<int> samples;
-  std::optional<double> weathering;
-  double exposureEv = 0.0;
-};
-
-/// Two numbers parted by `separator`, nothing else around them.
-template <typename T>
-std::optional<std::pair<T, T>> twoNumbers(const std::string& text, char separator) {
-  std::pair<T, T> numbers;
-  const char* end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, numbers.first);
-  if (first.ec != std::errc{} || first.ptr == end || *first.ptr != separator) return std::nullopt;
-  const auto second = std::from_chars(first.ptr + 1, end, numbers.second);
-  if (second.ec != std::errc{} || second.ptr != end) return std::nullopt;
-  return numbers;
-}
-
-Result<void> applySize(const std::string& text, project::Project& project) {
-  if (text.empty()) return {};
-  const auto size = twoNumbers<std::int64_t>(text, 'x');
-  const std::string remedy = "Give WIDTHxHEIGHT in pixels, such as 1280x720: 1 to 16384 each.";
-  if (!size) return Error::badInput("\"" + text + "\" is not a size", "--size", remedy);
-  const auto [width, height] = *size;
-  if (width < 1 || height < 1 || width > 16384 || height > 16384 || width * height > project::kMaxPixels) {
-    return Error::badInput("a picture of " + text + " pixels cannot be drawn", "--size", remedy);
-  }
-  project.output.width = static_cast<int>(width);
-  project.output.height = static_cast<int>(height);
-  return {};
-}
-
-Result<void> applySun(const std::string& text, project::Project& project) {
-  if (text.empty()) return {};
-  const auto angles = twoNumbers<double>(text, ',');
-  const std::string remedy = "Give AZIMUTH,ELEVATION in degrees, such as 225,35 (clockwise from north, up).";
-  if (!angles || !std::isfinite(angles->first) || !std::isfinite(angles->second)) {
-    return Error::badInput("\"" + text + "\" is not a sun position", "--sun", remedy);
-  }
-  if (std::abs(angles->first) > 360.0 || std::abs(angles->second) > 90.0) {
-    return Error::badInput("the sun cannot stand at " + text + " degrees", "--sun", remedy);
-  }
-  const double azimuth = std::fmod(angles->first + 360.0, 360.0);
-  project.sun.byMoment = false;
-  project.sun.angles = {azimuth, angles->second};
-  return {};
-}
-
-Result<scene::View> chooseView(const project::Project& project, const std::string& name) {
-  if (name.empty()) {
-    if (const scene::View* main = project.view("main")) return *main;
-    return project.views.empty() ? scene::View{} : project.views.front();
-  }
-  if (const scene::View* view = project.view(name)) return *view;
-  std::vector<std::string> names;
-  std::string all;
-  for (const scene::View& view : project.views) {
-    names.push_back(view.name);
-    all += (all.empty() ? "" : ", ") + view.name;
-  }
-  const std::string nearest = project::nearestName(name, names);
-  return Error::badInput("there is no view \"" + name + "\"", "--view",
-                         (nearest.empty() ? "" : "Did you mean \"" + nearest + "\"? ") +
-                             (all.empty() ? "The project has no views." : "Views: " + all + "."));
-}
-
-Result<void> checkPicture(const fs::path& file) {
-  if (!image::canWriteImage(file)) {
-    return Error::badInput("\"" + file.extension().string() + "\" is not a kind of picture that can be written",
-                           file.string(), "Use .png (sRGB, 8 bits) or .exr (linear).");
-  }
-  return checkOutputFile(file);
-}
 
 /// Everything a picture needs, settled before anything is baked.
 struct RenderPlan {
@@ -102,37 +20,27 @@ struct RenderPlan {
   render::Frame frame;
   std::shared_ptr<const terrain::HeightField> terrain;  ///< nothing: level ground
   fs::path output;
-  bool linear = false;
 };
 
 Result<RenderPlan> planRender(const Program& program, const RenderRequest& request) {
-  SWARD_ASSIGN(project::Project project, loadProject(program, request.project));
-  SWARD_TRY(applyMethods(request.methods, project));
-  SWARD_TRY(applySize(request.size, project));
-  SWARD_TRY(applySun(request.sun, project));
-  if (request.weathering) project.wither.weathering = *request.weathering;
-  if (request.samples) project.render.samples = *request.samples;
-  if (!request.maxError.empty()) {
-    SWARD_ASSIGN(project.accuracy, report::parseAccuracy(request.maxError));
+  SWARD_ASSIGN(project::Project project, requestedProject(program, request));
+  if (exporting::FramePattern::isOne(request.output)) {
+    return Error::badInput("the name is one of a sequence's frames", request.output,
+                           "Add --frames FIRST:LAST, or give the picture another name.");
   }
-  SWARD_TRY(checkProject(program, project));
   SWARD_TRY(checkPicture(request.output));
   SWARD_ASSIGN(const scene::View view, chooseView(project, request.view));
   SWARD_ASSIGN(const scene::Daylight daylight, render::daylightOf(project));
   SWARD_ASSIGN(const render::Frame frame, render::planFrame(project, view, daylight, request.exposureEv));
-  SWARD_ASSIGN(const terrain::Terrain terrain, render::terrainOf(project));
-  for (const std::string& warning : terrain.warnings) warn(program, "terrain: " + warning);
-  std::string extension = fs::path(request.output).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return RenderPlan{std::move(project), view, daylight, frame, terrain.field, request.output, extension == ".exr"};
+  SWARD_ASSIGN(auto terrain, requestedTerrain(program, project));
+  return RenderPlan{std::move(project), view, daylight, frame, std::move(terrain), request.output};
 }
 
 struct RenderTimes {
   double start = 0.0, bake = 0.0, upload = 0.0, draw = 0.0, write = 0.0;
 };
 
-Result<image::Image> drawPicture(Program& program, const RenderPlan& plan, gpu::Context& context,
+Result<image::Image> drawWithNew(Program& program, const RenderPlan& plan, gpu::Context& context,
                                  std::shared_ptr<const bake::GroundBake> ground, RenderTimes& times) {
   StopWatch watch;
   SWARD_ASSIGN(const auto renderer, render::Renderer::create(context));
@@ -140,12 +48,9 @@ Result<image::Image> drawPicture(Program& program, const RenderPlan& plan, gpu::
   SWARD_TRY(renderer->setGround(std::move(ground)));
   if (plan.terrain) SWARD_TRY(renderer->setTerrain(plan.terrain));
   times.upload = watch.lap();
-  renderer->setDaylight(plan.daylight, plan.project.sky.hazeKm);
-  if (program.interrupts.requested()) return Error::cancelled();
   SWARD_ASSIGN(image::Image picture,
-               plan.linear ? renderer->drawLinear(plan.frame) : renderer->drawDisplay(plan.frame));
+               drawPicture(program, *renderer, plan.project, plan.daylight, plan.frame, isLinear(plan.output)));
   times.draw = watch.lap();
-  if (program.interrupts.requested()) return Error::cancelled();
   return picture;
 }
 
@@ -166,7 +71,16 @@ Json resultJson(const RenderPlan& plan, const gpu::DeviceInfo& device, const Ren
           {"bake", bakeJson(baked)}};
 }
 
+/// Options of sequences that stand alone.
+Result<void> checkAlone(const RenderRequest& request) {
+  if (!request.shard.empty()) return Error::badInput("--shard is for sequences", "--shard", "Add --frames FIRST:LAST.");
+  if (request.force) return Error::badInput("--force is for sequences", "--force", "Add --frames FIRST:LAST.");
+  return {};
+}
+
 Result<int> runRender(Program& program, const RenderRequest& request) {
+  if (!request.frames.empty()) return renderSequence(program, request);
+  SWARD_TRY(checkAlone(request));
   StopWatch watch;
   RenderTimes times;
   SWARD_ASSIGN(const gpu::Device device, gpu::deviceFromName(request.device));
@@ -185,12 +99,9 @@ Result<int> runRender(Program& program, const RenderRequest& request) {
   times.bake = watch.lap();
   for (const std::string& warning : baked.warnings) warn(program, warning);
   say(program, bakeText(baked));
-  SWARD_ASSIGN(const image::Image picture, drawPicture(program, plan, *context, std::move(ground), times));
+  SWARD_ASSIGN(const image::Image picture, drawWithNew(program, plan, *context, std::move(ground), times));
   watch.lap();
-  {
-    const auto writing = program.interrupts.writing();
-    SWARD_TRY(plan.linear ? image::writeExr(plan.output, picture) : image::writePng(plan.output, picture));
-  }
+  SWARD_TRY(writePicture(program, plan.output, picture));
   times.write = watch.lap();
   say(program, "drew view \"" + plan.view.name + "\" on " + context->info().api + " (" + context->info().renderer +
                    "): relit, and " + std::to_string(plan.project.render.samples) + " samples, in " +
@@ -211,14 +122,20 @@ void addRenderCommand(CLI::App& app, Program& program) {
       addCommand(app, program, "render", "Draw one view of a project to a picture",
                  "Bakes what is missing, relights and draws. Nothing but the view is baked again when only the\n"
                  "sun, the view, the size or the way to draw changes.\n\n"
+                 "With --frames it draws the project's sequence, in which the season passes; %04d in FILE is\n"
+                 "the frame's number. An account of them stands beside the frames (NAME.frames.json): a later run\n"
+                 "skips those that are whole and were made from the same project, view, settings and program.\n\n"
                  "Examples:\n"
                  "  sward render meadow.sward -o meadow.png --view low --size 1920x1080\n"
                  "  sward render meadow.sward -o noon.exr --sun 180,62 --spp 64 --exposure -0.5\n"
                  "  sward render meadow.sward -o cheap.png --view top --max-error rmse=0.12\n"
-                 "  sward render meadow.sward -o paper.png --method blended_paper,lpt_paper --set tiles.seed=2");
+                 "  sward render meadow.sward -o paper.png --method blended_paper,lpt_paper --set tiles.seed=2\n"
+                 "  sward render autumn.sward -o out/autumn_%04d.png --frames 0:119 --shard 1/4");
   const auto request = std::make_shared<RenderRequest>();
   command->add_option("PROJECT", request->project, "The project, a .sward file")->required();
-  command->add_option("-o,--output", request->output, "The picture: .png (sRGB) or .exr (linear)")
+  command
+      ->add_option("-o,--output", request->output,
+                   "The picture: .png (sRGB) or .exr (linear); with --frames a name such as f_%04d.png")
       ->required()
       ->type_name("FILE");
   command->add_option("--view", request->view, "A view of the project [main, else the first]")->type_name("NAME");
@@ -245,6 +162,15 @@ void addRenderCommand(CLI::App& app, Program& program) {
   command->add_option("--exposure", request->exposureEv, "Stops added to the view's exposure [0]")
       ->type_name("EV")
       ->check(CLI::Range(-20.0, 20.0));
+  command
+      ->add_option("--frames", request->frames,
+                   "Draw these frames of the project's sequence, both included, such as 0:119")
+      ->type_name("A:B");
+  command
+      ->add_option("--shard", request->shard,
+                   "Of those frames every Nth from the Ith on, such as 2/4 on the second of four machines")
+      ->type_name("I/N");
+  command->add_flag("--force", request->force, "Draw frames anew that are there already");
   command->callback(
       [&program, request] { program.run = [&program, request] { return runRender(program, *request); }; });
 }

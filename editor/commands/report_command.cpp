@@ -141,7 +141,8 @@ Result<int> runReport(Program& program, const ReportRequest& request) {
   if (bake::drawnAsTexels(project)) {
     project.render.method = render::GroundMethod::March;
     warn(program,
-         "the project is drawn as texels; its layers are measured, and sections wither and texel_lod its texels");
+         "the project is drawn as texels; its layers are measured, and its texels by the sections wither, texel_lod "
+         "and texel_render");
   }
   SWARD_TRY(report::checkReportFolder(request.folder));
   SWARD_ASSIGN(const auto context, gpu::Context::create(device));

@@ -9,6 +9,7 @@
 #include "report/section_relight.h"
 #include "report/section_stability.h"
 #include "report/section_texel_lod.h"
+#include "report/section_texel_render.h"
 #include "report/section_tiles.h"
 #include "report/section_wither.h"
 #include "report/speed.h"
@@ -94,6 +95,8 @@ std::vector<SectionEntry> reportSections(const Program& program, const std::stri
        [](const SectionInput& input, const JobContext& job) { return report::witherSection(input, job); }, 8.0},
       {"texel_lod", "what levels of detail of texels let through, against traced rays",
        [](const SectionInput& input, const JobContext& job) { return report::texelLodSection(input, job); }, 8.0},
+      {"texel_render", "texels and layers at one weathering degree, drawn, against ray-traced withered blades",
+       report::texelRenderSection, 40.0},
       {"stability", "fits of degenerate input against a long-double oracle", report::stabilitySection, 3.0},
   };
 }

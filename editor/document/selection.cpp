@@ -61,9 +61,10 @@ std::optional<Selection> selectionAt(const std::string& where, const project::Pr
     return selectView(project, *index);
   }
   static constexpr std::pair<std::string_view, Kind> kSections[] = {
-      {"patch", Kind::Ground}, {"lights", Kind::Lights},   {"sampling", Kind::Sampling}, {"fit", Kind::Fit},
-      {"tiles", Kind::Tiles},  {"terrain", Kind::Terrain}, {"wither", Kind::Wither},     {"leaf", Kind::Leaf},
-      {"sun", Kind::SunSky},   {"sky", Kind::SunSky},      {"render", Kind::Render},     {"output", Kind::Render}};
+      {"patch", Kind::Ground},   {"lights", Kind::Lights},   {"sampling", Kind::Sampling}, {"fit", Kind::Fit},
+      {"tiles", Kind::Tiles},    {"terrain", Kind::Terrain}, {"wither", Kind::Wither},     {"leaf", Kind::Leaf},
+      {"sun", Kind::SunSky},     {"sky", Kind::SunSky},      {"render", Kind::Render},     {"output", Kind::Render},
+      {"sequence", Kind::Wither}};
   const std::string_view section = std::string_view(where).substr(0, where.find_first_of(".["));
   for (const auto& [name, kind] : kSections) {
     if (section == name) return Selection{kind, 0, {}};

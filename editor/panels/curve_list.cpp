@@ -75,7 +75,7 @@ base::Curve diagonal() {
 }
 
 std::string ownerOf(const std::string& path) {
-  if (path.starts_with("wither.")) return "wither";
+  if (path.starts_with("wither.") || path.starts_with("sequence.")) return "wither";
   const std::size_t bracket = path.find(']');
   return bracket == std::string::npos ? "" : path.substr(0, bracket + 1);
 }
@@ -91,7 +91,8 @@ std::string labelOf(const project::Project& project, const std::string& path, co
 base::Curve builtInOf(const project::Project& project, const std::string& path, const std::string& owner) {
   if (path == kWater) return wither::waterCurve(project.wither.ageing);
   if (path == kChlorophyll) return wither::chlorophyllCurve(project.wither.ageing);
-  if (mayNotFall(path)) return diagonal();
+  if (mayNotFall(path) || path == "sequence.season") return diagonal();
+  if (path == "sequence.hourUtc") return base::Curve::constant(project.sun.moment.hourUtc);
   for (std::size_t i = 0; i < project.patch.plants.size(); ++i) {
     if (owner != "patch.plants[" + std::to_string(i) + "]") continue;
     if (path.ends_with(".grass.profile")) return mesh::builtInProfile();

@@ -73,6 +73,9 @@ void InspectorPanel::withering(PanelContext& context) {
   heading("Texel");
   fields(
       context, "wither.texel", [](project::Project & p) -> auto& { return p.wither.texel; });
+  heading("Sequence");
+  fields(
+      context, "sequence", [](project::Project & p) -> auto& { return p.sequence; });
 }
 
 void InspectorPanel::degree(PanelContext& context) {

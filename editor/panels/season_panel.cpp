@@ -8,6 +8,9 @@
 #include "widgets/parts.h"
 #include "widgets/theme.h"
 
+#include "project/schema.h"
+#include "project/sequence.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +23,6 @@ namespace sward::editor {
 namespace {
 
 constexpr int kSteps = 160;
-constexpr double kLeastSeconds = 2.0, kMostSeconds = 120.0;
 
 struct Line {
   const char* name;
@@ -29,10 +31,32 @@ struct Line {
   double at(double season) const { return curve.points().empty() ? season : curve(season); }
 };
 
+/// The archive that finds what the schema says of the sequence's numbers.
+struct SpecsOf {
+  template <typename T>
+  using Ref = const T&;
+  project::Spec frames, rate;
+  template <typename T>
+  void field(std::string_view name, const T&, const project::Spec& spec = {}) {
+    if (name == "frames") frames = spec;
+    if (name == "framesPerSecond") rate = spec;
+  }
+};
+
 std::array<Line, 3> linesOf(const wither::AgeingOptions& ageing) {
   return {{{"Water", wither::waterCurve(ageing), seasonColour("wither.ageing.water")},
            {"Chlorophyll", wither::chlorophyllCurve(ageing), seasonColour("wither.ageing.chlorophyll")},
            {"Weathering", ageing.weathering, seasonColour("wither.ageing.weathering")}}};
+}
+
+double lengthOf(const project::Sequence& sequence) {
+  return sequence.frames / sequence.framesPerSecond;
+}
+
+/// The frame that stands at a time of the sequence.
+int frameOf(const project::Sequence& sequence, double seconds) {
+  const double frame = std::floor(seconds * sequence.framesPerSecond * (1.0 + 1e-12));
+  return static_cast<int>(std::clamp(frame, 0.0, sequence.frames - 1.0));
 }
 
 /// Names and values at a moment, half way up the plot between `min` and `max`, where the curves of most autumns leave
@@ -71,23 +95,18 @@ std::uint32_t seasonColour(std::string_view path) {
   return path == "wither.ageing.weathering" ? c.sun : 0;
 }
 
-double weatheringAt(const wither::AgeingOptions& ageing, double season) {
-  const double at = std::clamp(season, 0.0, 1.0);
-  return ageing.weathering.points().empty() ? at : std::clamp(ageing.weathering(at), 0.0, 1.0);
-}
-
 double shownMoment(const UiState& ui, const project::Project& project) {
   if (ui.season.at) return *ui.season.at;
   const double wanted = std::clamp(project.wither.weathering, 0.0, 1.0);
   const wither::AgeingOptions& ageing = project.wither.ageing;
   if (ageing.weathering.points().empty()) return wanted;
   // As wither::Season::seasonOf, without the season's bodies: the earliest moment of the degree.
-  if (weatheringAt(ageing, 0.0) >= wanted) return 0.0;
-  const double reached = std::min(wanted, weatheringAt(ageing, 1.0));
+  if (project::weatheringAt(ageing, 0.0) >= wanted) return 0.0;
+  const double reached = std::min(wanted, project::weatheringAt(ageing, 1.0));
   double low = 0.0, high = 1.0;
   for (int i = 0; i < 40; ++i) {
     const double middle = 0.5 * (low + high);
-    (weatheringAt(ageing, middle) >= reached ? high : low) = middle;
+    (project::weatheringAt(ageing, middle) >= reached ? high : low) = middle;
   }
   return high;
 }
@@ -98,21 +117,30 @@ void togglePlay(UiState& ui, const project::Project& project) {
     play.running = false;
     return;
   }
-  double from = shownMoment(ui, project);
-  if (from >= 1.0) from = 0.0;
-  play.at = from;
-  play.weathering = weatheringAt(project.wither.ageing, from);
+  const double length = lengthOf(project.sequence);
+  // A pause goes on where it was; a sequence may show one moment several times.
+  if (!play.at) play.seconds = length * project::shareOfSeason(project.sequence, shownMoment(ui, project));
+  const bool ended = play.seconds >= length || (play.at && *play.at >= 1.0 && project.sequence.season.points().empty());
+  if (ended) {
+    play.seconds = 0.0;
+    play.at = project::seasonAt(project.sequence, 0.0);
+  } else {
+    play.at = shownMoment(ui, project);
+  }
+  play.weathering = project::weatheringAt(project.wither.ageing, *play.at);
   play.running = true;
 }
 
-void advancePlay(SeasonPlay& play, const wither::AgeingOptions& ageing, double seconds) {
-  double at = play.at.value_or(0.0) + seconds / std::clamp(play.seconds, kLeastSeconds, kMostSeconds);
-  if (at >= 1.0) {
+void advancePlay(SeasonPlay& play, const project::Project& project, double seconds) {
+  const project::Sequence& sequence = project.sequence;
+  const double length = lengthOf(sequence);
+  play.seconds = std::max(play.seconds + seconds, 0.0);
+  if (play.seconds >= length) {
     play.running = play.loop;
-    at = play.loop ? std::fmod(at, 1.0) : 1.0;
+    play.seconds = play.loop ? std::fmod(play.seconds, length) : length;
   }
-  play.at = at;
-  play.weathering = weatheringAt(ageing, at);
+  play.at = project::seasonAt(sequence, project::shareOf(sequence, frameOf(sequence, play.seconds)));
+  play.weathering = project::weatheringAt(project.wither.ageing, *play.at);
 }
 
 void SeasonPanel::draw(PanelContext& context) {
@@ -144,8 +172,9 @@ void SeasonPanel::playControls(PanelContext& context) {
   SeasonPlay& play = context.ui.season;
   const wither::AgeingOptions& ageing = context.project->wither.ageing;
   if (iconButton("season.start", icon::kPrevious, "Show the beginning of the season")) {
-    play.at = 0.0;
-    play.weathering = weatheringAt(ageing, 0.0);
+    play.seconds = 0.0;
+    play.at = project::seasonAt(context.project->sequence, 0.0);
+    play.weathering = project::weatheringAt(ageing, *play.at);
     context.ui.lastMotion = context.seconds;
   }
   ImGui::SameLine(0.0f, px(4.0f));
@@ -154,24 +183,52 @@ void SeasonPanel::playControls(PanelContext& context) {
           {px(84.0f), 0.0f}))
     context.edits.run("season.play");
   logItem("season.play");
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Show the season pass; the project stays as it is  (Space)");
   ImGui::SameLine(0.0f, px(4.0f));
   if (iconButton("season.stop", icon::kStop, "Back to the project's own weathering degree", "", play.at.has_value()))
     context.edits.run("season.stop");
   ImGui::SameLine(0.0f, px(4.0f));
   if (toolToggle("season.loop", icon::kRefresh, play.loop, "Begin again at the end")) play.loop = !play.loop;
   ImGui::SameLine(0.0f, px(10.0f));
-  NumberStyle style = fieldLook("seconds", project::range(kLeastSeconds, kMostSeconds, "s"), play.seconds).number;
-  style.caption = "Plays";
-  style.logarithmic = true;
-  numberField("seconds", play.seconds, style, px(110.0f));
-  logItem("season.seconds");
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("How long a whole season plays");
+  sequence(context);
+}
+
+/// How many frames the sequence has and how fast they play: fields of the project, in the panel that plays them.
+void SeasonPanel::sequence(PanelContext& context) {
+  SpecsOf specs;
+  project::Sequence edited = context.project->sequence;
+  project::describe(specs, edited);
+  double frames = edited.frames;
+  NumberStyle count = fieldLook("frames", specs.frames, frames).number;
+  const EditState framesEdited = numberField("frames", frames, count, px(96.0f));
+  logItem("season.frames");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", specs.frames.help);
+  const bool framesActive = ImGui::IsItemActive();
+  ImGui::SameLine(0.0f, px(4.0f));
+  NumberStyle rate = fieldLook("framesPerSecond", specs.rate, edited.framesPerSecond).number;
+  const EditState rateEdited = numberField("rate", edited.framesPerSecond, rate, px(116.0f));
+  logItem("season.rate");
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("%s\nThe sequence lasts %.1f s.", specs.rate.help, lengthOf(context.project->sequence));
+  if (framesEdited.changed) {
+    const int wanted = static_cast<int>(std::lround(frames));
+    context.edits.edit(
+        "frames", [wanted](project::Project& p) { p.sequence.frames = wanted; }, "sequence.frames");
+  }
+  if (rateEdited.changed) {
+    const double wanted = edited.framesPerSecond;
+    context.edits.edit(
+        "frame rate", [wanted](project::Project& p) { p.sequence.framesPerSecond = wanted; },
+        "sequence.framesPerSecond");
+  }
+  if (framesActive || ImGui::IsItemActive()) context.ui.inputActive = true;
+  if (framesEdited.finished || rateEdited.finished) release(context);
 }
 
 void SeasonPanel::degree(PanelContext& context) {
   const SeasonPlay& play = context.ui.season;
-  const double shown = play.at ? play.weathering : context.project->wither.weathering;
+  // Play stops anywhere between two whole per cent: nobody wants to read or keep more.
+  const double paused = std::round(100.0 * play.weathering) / 100.0;
+  const double shown = play.at ? paused : context.project->wither.weathering;
   double value = shown;
   NumberStyle style = fieldLook("weathering", project::percent(0.0, 1.0), shown).number;
   style.caption = "Weathering";
@@ -186,9 +243,8 @@ void SeasonPanel::degree(PanelContext& context) {
                                     : "The project's weathering degree");
   if (!play.at) return;
   ImGui::SameLine(0.0f, px(6.0f));
-  const double weathering = play.weathering;
   if (ImGui::Button("Keep")) {
-    set(context, weathering);
+    set(context, paused);
     release(context);
   }
   logItem("season.keep");
@@ -251,7 +307,7 @@ void SeasonPanel::timeline(PanelContext& context) {
   draw->PopClipRect();
   if (ImGui::IsItemActive()) {
     m_dragging = true;
-    set(context, weatheringAt(ageing, (ImGui::GetIO().MousePos.x - origin.x) / size.x));
+    set(context, project::weatheringAt(ageing, (ImGui::GetIO().MousePos.x - origin.x) / size.x));
   } else if (m_dragging) {
     m_dragging = false;
     release(context);

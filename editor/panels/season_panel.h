@@ -18,6 +18,7 @@ class SeasonPanel {
  private:
   void controls(PanelContext& context);
   void playControls(PanelContext& context);
+  void sequence(PanelContext& context);
   void degree(PanelContext& context);
   void layersNote(PanelContext& context);
   void timeline(PanelContext& context);
@@ -29,13 +30,12 @@ class SeasonPanel {
 
 /// What the season's curves are drawn in, by their path; 0 for other curves.
 std::uint32_t seasonColour(std::string_view path);
-/// The degree of weathering at a moment of the season, both in [0, 1].
-double weatheringAt(const wither::AgeingOptions& ageing, double season);
 /// The moment that the viewport shows: what plays, else where the project's weathering degree stands.
 double shownMoment(const UiState& ui, const project::Project& project);
-/// Starts or pauses the season, from its beginning where it had ended.
+/// Starts or pauses the sequence, from its beginning where it had ended. It starts at the moment that is shown, where
+/// the sequence has it.
 void togglePlay(UiState& ui, const project::Project& project);
-/// Moves what plays on by so many seconds; at the end it begins anew or rests.
-void advancePlay(SeasonPlay& play, const wither::AgeingOptions& ageing, double seconds);
+/// Moves what plays on by so many seconds, frame by frame at the sequence's rate; at the end it begins anew or rests.
+void advancePlay(SeasonPlay& play, const project::Project& project, double seconds);
 
 }  // namespace sward::editor

@@ -27,11 +27,11 @@ struct CompareState {
   bool operator==(const CompareState&) const = default;
 };
 
-/// The season that plays in the viewport without touching the document.
+/// The project's sequence that plays in the viewport without touching the document.
 struct SeasonPlay {
   bool running = false;
   bool loop = true;
-  double seconds = 12.0;     ///< that a whole season takes, 2 to 120
+  double seconds = 0.0;      ///< into the sequence, 0 to frames / framesPerSecond
   std::optional<double> at;  ///< moment in [0, 1] that is shown; none: the document's own
   double weathering = 0.0;   ///< degree at that moment
 };

@@ -37,6 +37,7 @@ const float kLevelBiasTexels = 0.8;
 const float kCellJitter = 0.7;     // tiles, of the places that cells are round
 const float kCellBlurM = 0.06;     // width of the borders between cells
 const float kCellReachM = 0.3;     // how far into the shell a ray is likely to end, at most
+const float kBendReach = 2.0;      // how many times as far as it is looked for a bend of the ground may lead
 const float kStride = 1.0;         // voxels between two places that a ray looks at
 const float kStrideGrowth = 1.5;   // and so many more where it is nearly opaque
 
@@ -229,6 +230,8 @@ vec3 marchShell(Walk walk, vec3 d, float bend, bool soilSeen, vec3 random) {
 vec3 marchTerrain(vec3 d, float enterM, bool last, vec3 random, out bool soilSeen, out float leaveM) {
   TerrainWalk w = startTerrain(d, enterM, last);
   soilSeen = w.soilSeen;
+  // The bend is that of the next metres: farther on it says nothing.
+  if (!soilSeen) w.walk.tEnd = min(w.walk.tEnd, kBendReach * max(v_heightM * w.walk.path, u_lookAheadM));
   leaveM = w.walk.tStart + w.walk.tEnd;
   float before = g_left;
   vec3 radiance = marchShell(w.walk, d, w.bend, soilSeen, random) * terrainLight(w);

@@ -199,7 +199,6 @@ TEST_F(SeasonTest, PlayingShowsOtherMomentsAndLeavesTheDocumentAlone) {
   ASSERT_TRUE(m_editor->settle(120.0));
   EXPECT_EQ(bakedWeathering(), 0.2);
   click("tab:Season");
-  ui().season.seconds = 4.0;
   application().keyPressed(Shortcut::parse("Space"));
   ASSERT_TRUE(frameUntil([&] { return bakedWeathering() > 0.4; }));
   EXPECT_TRUE(application().nextWake().has_value());
@@ -222,6 +221,27 @@ TEST_F(SeasonTest, PlayingShowsOtherMomentsAndLeavesTheDocumentAlone) {
   click("action:season.stop");
   ASSERT_TRUE(frameUntil([&] { return bakedWeathering() == paused && application().live().settled(); }));
   EXPECT_EQ(document().position(), 1U);
+}
+
+TEST_F(SeasonTest, TheSequenceIsEditedWithUndo) {
+  click("tab:Season");
+  frames(2);
+  const project::Sequence before = project().sequence;
+  drag("season.frames", {40.0f, 0.0f});
+  EXPECT_EQ(document().position(), 1U);
+  EXPECT_GT(project().sequence.frames, before.frames);
+  EXPECT_EQ(document().undoName(), "frames");
+  drag("season.rate", {-40.0f, 0.0f});
+  EXPECT_EQ(document().position(), 2U);
+  EXPECT_LT(project().sequence.framesPerSecond, before.framesPerSecond);
+  show("sequence");
+  application().run("edit.undo");
+  application().run("edit.undo");
+  EXPECT_EQ(project().sequence, before);
+  click("outliner:Withering");
+  frames(2);
+  EXPECT_TRUE(has("field:sequence.frames"));
+  EXPECT_TRUE(has("field:sequence.season"));
 }
 
 TEST_F(SeasonTest, TexelsAreShownPlainlyAndComparedWithTheReferenceAlone) {

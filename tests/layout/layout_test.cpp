@@ -34,6 +34,7 @@ const std::map<std::string, std::set<std::string>>& allowedIncludes() {
       {"wither", with(upToScene, {"trace", "leaf"})},
       {"lpt", with(upToScene, {"trace"})},
       {"tiles", with(upToScene, {"trace", "lpt"})},
+      {"impostor", {"base", "mesh"}},
       {"project", {"base"}},
       {"bake", with(upToScene, {"trace", "lpt", "tiles", "project", "leaf", "terrain", "wither"})},
       {"gpu", {"base", "image"}},

@@ -23,8 +23,9 @@ std::optional<CurveEntry> entryAt(const project::Project& project, const std::st
 TEST(CurveList, TheSeasonsCurvesStandTogether) {
   project::Project project;
   project.wither.mingle = {{"late", 1.0, 1.0, {}}, {"early", 1.0, 1.0, curve({{0.0, 0.5}, {1.0, 1.0}})}};
-  for (const char* path : {"wither.ageing.water", "wither.ageing.chlorophyll", "wither.ageing.weathering",
-                           "wither.mingle[0].ageing", "wither.mingle[1].ageing"}) {
+  for (const char* path :
+       {"wither.ageing.water", "wither.ageing.chlorophyll", "wither.ageing.weathering", "wither.mingle[0].ageing",
+        "wither.mingle[1].ageing", "sequence.season", "sequence.hourUtc"}) {
     const auto entry = entryAt(project, path);
     ASSERT_TRUE(entry) << path;
     EXPECT_EQ(entry->owner, "wither");
@@ -74,21 +75,40 @@ TEST(SeasonPlayTest, TheMomentIsWhereTheSeasonReachesTheDegree) {
 }
 
 TEST(SeasonPlayTest, PlayingRunsToTheEndAndBeginsAgainOrRests) {
-  wither::AgeingOptions ageing;
+  project::Project project;
+  project.sequence.frames = 101;  // every frame a hundredth of the season, and of a tenth of a second
+  project.sequence.framesPerSecond = 10.0;
   SeasonPlay play;
   play.running = true;
-  play.seconds = 10.0;
   play.at = 0.0;
-  for (int i = 0; i < 25; ++i) advancePlay(play, ageing, 0.1);
+  for (int i = 0; i < 25; ++i) advancePlay(play, project, 0.1);
   EXPECT_NEAR(*play.at, 0.25, 1e-12);
   EXPECT_EQ(play.weathering, *play.at);
-  advancePlay(play, ageing, 8.0);
+  advancePlay(play, project, 0.06);
+  EXPECT_NEAR(*play.at, 0.25, 1e-12) << "between two frames the first of them stands";
+  advancePlay(play, project, 0.04 + 8.0);  // 10.1 s long
   EXPECT_NEAR(*play.at, 0.05, 1e-12);
   EXPECT_TRUE(play.running);
   play.loop = false;
-  advancePlay(play, ageing, 20.0);
+  advancePlay(play, project, 20.0);
   EXPECT_EQ(*play.at, 1.0);
   EXPECT_FALSE(play.running);
+}
+
+TEST(SeasonPlayTest, PlayFollowsTheSequencesCurve) {
+  project::Project project;
+  project.sequence.frames = 11;
+  project.sequence.framesPerSecond = 10.0;
+  project.sequence.season = curve({{0.0, 0.4}, {1.0, 0.6}});
+  UiState ui;
+  project.wither.weathering = 0.5;
+  togglePlay(ui, project);
+  EXPECT_NEAR(ui.season.seconds, 0.55, 1e-9);  // the middle of 1.1 s
+  advancePlay(ui.season, project, 0.25);
+  EXPECT_NEAR(*ui.season.at, 0.56, 1e-12);  // frame 8
+  project.sequence.frames = 1;
+  advancePlay(ui.season, project, 0.05);
+  EXPECT_NEAR(*ui.season.at, 0.4, 1e-12);
 }
 
 TEST(SeasonPlayTest, PlayStartsWhereTheProjectStandsAndAnewAtTheEnd) {

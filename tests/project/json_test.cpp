@@ -88,8 +88,9 @@ TEST(ProjectJson, KeysStandInTheOrderOfTheDesign) {
   const Json json = Json::parse(toJson(fullProject()));
   std::vector<std::string> keys;
   for (auto item = json.begin(); item != json.end(); ++item) keys.push_back(item.key());
-  EXPECT_THAT(keys, testing::ElementsAre("version", "name", "patch", "lights", "sampling", "fit", "tiles", "leaf",
-                                         "wither", "terrain", "sun", "sky", "render", "accuracy", "views", "output"));
+  EXPECT_THAT(keys,
+              testing::ElementsAre("version", "name", "patch", "lights", "sampling", "fit", "tiles", "leaf", "wither",
+                                   "terrain", "sun", "sky", "render", "accuracy", "views", "output", "sequence"));
 }
 
 TEST(ProjectJson, CurvesAndColoursStayOnOneLine) {

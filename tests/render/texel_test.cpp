@@ -34,7 +34,7 @@ std::shared_ptr<const bake::GroundBake> blockOf(const std::function<float(glm::i
   auto texels = std::make_shared<bake::TexelBake>();
   auto texel =
       std::make_shared<const wither::Texel>(wither::Texel::fromEntries({16, 16, 1.0, 1.0}, std::move(entries)).value());
-  texels->levels.push_back({texel, wither::marchedSky(*texel, {}).value()});
+  texels->levels.push_back({texel, wither::sweptSky(*texel, {}).value()});
   texels->soil.assign(256, glm::vec3(0.5f));
   auto ground = std::make_shared<bake::GroundBake>();
   ground->patchSideM = ground->heightM = 1.0;
@@ -84,7 +84,7 @@ TEST(Texels, ALayerHidesAndShadesTheSoilByBeersLaw) {
   const glm::dvec3 seen = meanOf(stage.renderer->drawLinear(downFrame(16)).value());
   // Black leaves: the soil, lit by the sun through the layer and by what the sky sends through it, seen through it.
   const wither::Texel texel = *layerOf(7, static_cast<float>(16.0 * depth), glm::vec3(0.0f))->texels->levels[0].texel;
-  const double sky = wither::marchedSky(texel, {}).value().ground.front();
+  const double sky = wither::sweptSky(texel, {}).value().ground.front();
   const glm::dvec3 lit =
       daylight.sunIrradiance() * (std::exp(-depth) / std::numbers::pi) + daylight.meanSkyRadiance() * sky;
   // Density in 8 bits of a square root, a fitted exponential (1 %), a lens of some degrees.

@@ -60,6 +60,28 @@ TEST(Axis, ShowsAllValuesWithReadableTicks) {
   expectAxis(axisOf(zeros, false), zeros);
 }
 
+TEST(Axis, WhatCurvesRunOverStartsWhereTheyDo) {
+  const std::vector<double> wavelengths{400.0, 550.0, 750.0}, season{0.0, 0.5, 1.0};
+  EXPECT_EQ(axisOf(wavelengths, false).low, 0.0);
+  const Axis axis = domainAxisOf(wavelengths, false);
+  expectAxis(axis, wavelengths);
+  EXPECT_GT(axis.low, 350.0);
+  EXPECT_LT(axis.high, 800.0);
+  EXPECT_EQ(domainAxisOf(season, false).low, 0.0);
+  expectAxis(domainAxisOf({{-1.0, 1.0}}, false), {-1.0, 1.0});
+  expectAxis(domainAxisOf({{0.1, 10.0}}, true), {0.1, 10.0});
+}
+
+TEST(Plot, CurvesStartWhereTheirDataDoes) {
+  Plot plot;
+  plot.xLabel = plot.yLabel = "x";
+  plot.series.push_back({"curve", {{400.0, 10.0, ""}, {750.0, 11.0, ""}}, true});
+  const auto marksZero = [&] { return plotSvg(plot, SeriesLooks(), false).svg.find(">0</text>") != std::string::npos; };
+  EXPECT_FALSE(marksZero());
+  plot.series[0].line = false;
+  EXPECT_TRUE(marksZero());
+}
+
 TEST(Axis, LogarithmicTicksAreAtOneTwoFive) {
   const std::vector<double> values{1.0, 50.0};
   std::vector<std::string> labels;

@@ -11,7 +11,9 @@ What is checked (core/report/section.h has the conventions):
   every row       times in order, PSNR against RMSE, and bounds that any error measures keep: |bias| <= rmse <= max
   speed           ratios against the limits that `against` names; bytes of the storage rows from their sizes
   picture rows    rmse, bias, max from the linear pictures/NAME.exr; psnr_db, ssim, flip from what the view transform
-                  that the row names makes of them
+                  that the row names makes of them; rmse_without_noise from rmse and the noise that the row states;
+                  relative_bias from bias and the reference's mean
+  texel_render    ratios against the march; levels of fewer columns take fewer bytes
   plots           that the page holds a plot for each file
   lights          rmse, bias and max of rows from the sums over their lights in tables/SECTION_lights.csv, those sums
                   from the arrays of the lights that were kept, and rmse over that of another method
@@ -25,8 +27,8 @@ import math
 import pathlib
 import sys
 
-from recompute_images import PictureErrors, picture_errors
-from recompute_tables import check_tables
+from recompute_images import HALF_ABSOLUTE, HALF_RELATIVE, PictureErrors, picture_errors, read_linear
+from recompute_tables import PARAMETER_DIGITS, check_tables
 
 # A figure of report.json is printed with 17 significant digits; sums were added in another order than here.
 SUM_EPSILON = 1e-9
@@ -153,6 +155,42 @@ def check_picture(checks, where, row, folder, with_flip):
             checks.near(where, name, error[name], value, tolerance)
 
 
+    if "reference_mean" in parameters and "relative_bias" in parameters:
+        mean = float(read_linear(files[1]).mean())
+        # Every pixel is rounded by so much at most, and so their mean.
+        checks.near(where, "reference_mean", parameters["reference_mean"], mean,
+                    (HALF_RELATIVE + PARAMETER_DIGITS) * abs(mean) + HALF_ABSOLUTE)
+        relative = error["bias"] / parameters["reference_mean"]
+        checks.near(where, "relative_bias", parameters["relative_bias"], relative, 2 * PARAMETER_DIGITS * abs(relative))
+
+
+def check_noise(checks, where, row):
+    """What is left of the RMSE without the reference's noise, in quadrature."""
+    parameters, rmse = row["parameters"], row.get("error", {}).get("rmse")
+    if rmse is None or not {"reference_noise_rmse", "rmse_without_noise"} <= parameters.keys():
+        return
+    noise, left = parameters["reference_noise_rmse"], parameters["rmse_without_noise"]
+    expected = max(rmse**2 - noise**2, 0.0)
+    # Squares of six digits: twice the relative error of either.
+    checks.near(where, "rmse_without_noise squared", left**2, expected, 2 * PARAMETER_DIGITS * (noise**2 + expected))
+
+
+def check_texel_render(checks, rows):
+    sizes = {}
+    for index, row in enumerate(rows):
+        where, parameters = place_of("texel_render", index, row), row["parameters"]
+        if "march_ms" in parameters:
+            ratio = parameters["march_ms"] / row["time_ms"]["median"]
+            checks.near(where, "ratio", row["ratio"], ratio, PARAMETER_DIGITS * ratio)
+        if row["method"] == "texels":
+            sizes.setdefault((parameters["view"], parameters["weathering"]), []).append(
+                (parameters["levels"], row["bytes_total"]))
+    for (view, weathering), levels in sizes.items():
+        levels.sort()
+        checks.true("texel_render", f"bytes do not rise with the columns, {view} at {weathering}",
+                    all(a[1] < b[1] for a, b in zip(levels, levels[1:])))
+
+
 def check_page(checks, folder, sections):
     page = (folder / "report.html").read_text(encoding="utf-8")
     for name in sections:
@@ -172,12 +210,15 @@ def check_report(folder):
         for index, row in enumerate(content["rows"]):
             where = place_of(section, index, row)
             check_row(checks, where, row)
+            check_noise(checks, where, row)
             if "picture" in row["parameters"] and "reference_picture" in row["parameters"]:
                 with_flip = "flip" in row.get("error", {}) and flips < FLIP_PICTURES
                 flips += with_flip
                 check_picture(checks, where, row, folder, with_flip)
     if "speed" in report["sections"]:
         check_speed(checks, report["sections"]["speed"]["rows"])
+    if "texel_render" in report["sections"]:
+        check_texel_render(checks, report["sections"]["texel_render"]["rows"])
     check_tables(checks, folder, report["sections"])
     check_page(checks, folder, report["sections"])
     return checks

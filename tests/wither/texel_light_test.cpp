@@ -1,6 +1,7 @@
 #include "wither/texel_light.h"
 
 #include "wither/extinction.h"
+#include "wither/test_texels.h"
 
 #include <gtest/gtest.h>
 
@@ -22,124 +23,118 @@ Voxel levelLeaf(float density) {
   return voxel;
 }
 
-Texel layers(std::initializer_list<int> at, float density) {
+Texel layers(std::initializer_list<int> at, float density, double heightM = 1.0) {
   std::vector<Texel::Entry> entries;
   for (const int z : at)
     for (int y = 0; y < 16; ++y)
       for (int x = 0; x < 16; ++x) entries.push_back({{x, y, z}, levelLeaf(density)});
-  return Texel::fromEntries({16, 16, 1.0, 1.0}, std::move(entries)).value();
+  return Texel::fromEntries({16, 16, 1.0, heightM}, std::move(entries)).value();
 }
 
 TEST(TexelLight, ASingleLayerIsLitByTheWholeSunOnItsUpperSideAndLetsItThrough) {
   const Texel texel = layers({5}, 8.0f);
-  const TexelSky dark{std::vector<float>(256, 0.0f), std::vector<float>(256, 0.0f), std::vector<float>(256, 0.0f)};
   const glm::dvec3 toSun = glm::normalize(glm::dvec3(0.3, -0.2, 0.9));
-  const LitTexel lit =
-      lightTexel(texel, nullptr, dark, {toSun, glm::dvec3(std::numbers::pi), glm::dvec3(0.0)}, {}).value();
-  ASSERT_EQ(lit.voxels.size(), 256u);
-  for (const LitVoxel& voxel : lit.voxels) {
+  const SunReach reach = sunReach(texel, toSun, {}).value();
+  ASSERT_EQ(reach.voxels.size(), 256u);
+  const LeafShading shading({toSun, glm::dvec3(std::numbers::pi), glm::dvec3(0.0)});
+  for (std::size_t i = 0; i < texel.size(); ++i) {
+    const Voxel& voxel = texel.voxels()[i];
+    const LitVoxel lit = shading(voxel, static_cast<float>(normalShare(voxel)), 0.0f, 0.0f, reach.voxels[i]);
     // Irradiance pi cos, over pi; nothing stands above, and the voxel does not shade itself.
-    EXPECT_NEAR(voxel.front.g, 0.4 * toSun.z, 1e-6);
-    EXPECT_NEAR(voxel.back.g, 0.3 * toSun.z, 1e-6);
-    EXPECT_FLOAT_EQ(voxel.sun, 1.0f);
+    EXPECT_NEAR(lit.front.g, 0.4 * toSun.z, 1e-6);
+    EXPECT_NEAR(lit.back.g, 0.3 * toSun.z, 1e-6);
+    EXPECT_FLOAT_EQ(reach.voxels[i], 1.0f);
   }
   // Level leaves of density rho in a layer 1/16 m thick hide rho / 16 of what comes from any direction.
-  for (const float through : lit.groundSun) EXPECT_NEAR(through, std::exp(-8.0 / 16.0), 1e-6);
+  for (const float through : reach.ground) EXPECT_NEAR(through, std::exp(-8.0 / 16.0), 1e-6);
 }
 
 TEST(TexelLight, LeavesBelowAreShadedByBeersLaw) {
   const Texel texel = layers({2, 9}, 24.0f);
-  const TexelSky dark{std::vector<float>(512, 0.0f), std::vector<float>(512, 0.0f), std::vector<float>(256, 0.0f)};
-  const glm::dvec3 toSun = glm::normalize(glm::dvec3(1.0, 0.4, 0.6));
-  const LitTexel lit = lightTexel(texel, nullptr, dark, {toSun, glm::dvec3(1.0), glm::dvec3(0.0)}, {}).value();
+  const SunReach reach = sunReach(texel, glm::normalize(glm::dvec3(1.0, 0.4, 0.6)), {}).value();
   for (std::size_t i = 0; i < texel.size(); ++i) {
     const double expected = texel.places()[i].z == 2 ? std::exp(-24.0 / 16.0) : 1.0;
-    EXPECT_NEAR(lit.voxels[i].sun, expected, 1e-6);
+    EXPECT_NEAR(reach.voxels[i], expected, 1e-6);
   }
 }
 
 TEST(TexelLight, ALeafInTheOpenSeesTheSkyThatItsSidesFace) {
   const Texel texel = layers({5}, 1e-6f);
-  const TexelSky sky = marchedSky(texel, {}).value();
+  const TexelSky sky = sweptSky(texel, {}).value();
   // All of the cosine-weighted upper hemisphere comes to the upper side, and the ground sees it all.
   for (const float front : sky.front) EXPECT_NEAR(front, 1.0, 1e-4);
   for (const float back : sky.back) EXPECT_NEAR(back, 0.0, 1e-6);
   for (const float ground : sky.ground) EXPECT_NEAR(ground, 1.0, 1e-4);
-  const LitTexel lit = lightTexel(texel, nullptr, sky, {{0.0, 0.0, 1.0}, glm::dvec3(0.0), glm::dvec3(2.0)}, {}).value();
-  EXPECT_NEAR(lit.voxels.front().front.g, 2.0 * 0.4, 1e-3);
-  EXPECT_NEAR(lit.voxels.front().back.g, 2.0 * 0.3, 1e-3);
+  const LeafShading shading({{0.0, 0.0, 1.0}, glm::dvec3(0.0), glm::dvec3(2.0)});
+  const LitVoxel lit = shading(texel.voxels()[0], 1.0f, sky.front[0], sky.back[0], 1.0f);
+  EXPECT_NEAR(lit.front.g, 2.0 * 0.4, 1e-3);
+  EXPECT_NEAR(lit.back.g, 2.0 * 0.3, 1e-3);
 }
 
-TEST(TexelLight, AFinerLevelLooksItsSkyUpAndKeepsItsInclination) {
-  std::vector<Texel::Entry> entries;
-  for (int y = 0; y < 16; ++y)
-    for (int x = 0; x < 16; ++x) {
-      Voxel upright = levelLeaf(1e-6f);
-      upright.normal = {1.0f, 0.0f, 0.0f};
-      upright.spread = {1e-6f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
-      entries.push_back({{x, y, 10}, upright});
-    }
-  const Texel fine = Texel::fromEntries({16, 16, 1.0, 1.0}, std::move(entries)).value();
-  std::vector<Texel::Entry> coarse;
-  for (int y = 0; y < 8; ++y)
-    for (int x = 0; x < 8; ++x) coarse.push_back({{x, y, 5}, levelLeaf(1e-6f)});
-  const Texel half = Texel::fromEntries({8, 8, 1.0, 1.0}, std::move(coarse)).value();
-  const TexelSky sky = finerSky(fine, half, marchedSky(half, {}).value(), {}).value();
-  // An upright leaf sees half of the sky with either side.
-  for (std::size_t i = 0; i < fine.size(); ++i) {
-    EXPECT_NEAR(sky.front[i], 0.5, 1e-3);
-    EXPECT_NEAR(sky.back[i], 0.5, 1e-3);
+TEST(TexelLight, AnUprightLeafInTheOpenSeesAsMuchOfTheSkyWithEitherSide) {
+  Voxel upright = levelLeaf(1e-6f);
+  upright.normal = {1.0f, 0.0f, 0.0f};
+  upright.spread = {1e-6f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+  const Texel texel = Texel::fromEntries({16, 16, 1.0, 1.0}, {{{3, 4, 5}, upright}}).value();
+  const TexelSky sky = sweptSky(texel, {}).value();
+  // The mean of tan(angle to the zenith) / pi over the three rings; five directions a ring give the pi to 2 %. All of
+  // the sky would be 1/2: what comes from under 24 degrees is counted too little, and grass hides it.
+  double seen = 0.0;
+  for (const double square : {1.0 / 6.0, 0.5, 5.0 / 6.0}) seen += std::sqrt(square / (1.0 - square)) / 3.0;
+  EXPECT_NEAR(sky.front[0], seen / std::numbers::pi, 0.01);
+  EXPECT_NEAR(sky.back[0], seen / std::numbers::pi, 0.01);
+}
+
+/// Sums of single precision over 15 directions: 1e-5.
+TEST(TexelLight, TheSkyOfLayersIsTheSumOverItsDirections) {
+  const float depth = 0.7f;
+  // Half as high as they are wide, so that one voxel out is above a layer for every direction.
+  const Texel texel = layers({2, 9}, 32.0f * depth, 0.5);
+  const TexelSky sky = sweptSky(texel, {}).value();
+  // From every direction a level layer of leaves lets exp(-rho h) through: what is seen of the sky is that of it.
+  for (std::size_t i = 0; i < texel.size(); ++i) {
+    EXPECT_NEAR(sky.front[i], texel.places()[i].z == 9 ? 1.0 : std::exp(-double{depth}), 1e-5);
+    EXPECT_NEAR(sky.back[i], 0.0, 1e-6);
   }
-  const Texel other = layers({1}, 1.0f);
-  EXPECT_FALSE(finerSky(half, other, marchedSky(other, {}).value(), {}).ok());
+  for (const float ground : sky.ground) EXPECT_NEAR(ground, std::exp(-2.0 * double{depth}), 1e-5);
 }
 
 TEST(TexelLight, ASunUnderTheHorizonLightsNothingAndDenseLeavesStayFinite) {
   const Texel texel = layers({0, 3, 15}, 3e7f);
-  const TexelSky sky = marchedSky(texel, {}).value();
+  const TexelSky sky = sweptSky(texel, {}).value();
+  for (const float front : sky.front) EXPECT_TRUE(std::isfinite(front));
   for (const glm::dvec3 toSun : {glm::dvec3(0.0, 0.6, -0.8), glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, 1.0)}) {
-    const LitTexel lit = lightTexel(texel, nullptr, sky, {toSun, glm::dvec3(3.0), glm::dvec3(0.1)}, {}).value();
-    for (const LitVoxel& voxel : lit.voxels) {
-      EXPECT_TRUE(std::isfinite(voxel.front.r + voxel.front.g + voxel.back.b + voxel.sun));
-      EXPECT_GE(voxel.front.g, 0.0f);
-      if (toSun.z < 0.0) {
-        EXPECT_EQ(voxel.sun, 0.0f);
-      }
+    const SunReach reach = sunReach(texel, toSun, {}).value();
+    for (std::size_t i = 0; i < texel.size(); ++i) {
+      const bool open = toSun.z > 0.0 && texel.places()[i].z == 15;
+      EXPECT_NEAR(reach.voxels[i], open ? 1.0 : 0.0, 1e-30);
     }
+    for (const float ground : reach.ground) EXPECT_NEAR(ground, 0.0, 1e-30);
   }
 }
 
-TEST(TexelLight, WhatIsFarIsMarchedThroughACoarseLevel) {
-  // 64 layers; leaves fill the block, so that the level of a quarter is the same medium.
-  std::vector<Texel::Entry> fine, coarse;
-  for (int z = 0; z < 64; ++z)
-    for (int y = 0; y < 32; ++y)
-      for (int x = 0; x < 32; ++x) fine.push_back({{x, y, z}, levelLeaf(3.0f)});
-  for (int z = 0; z < 16; ++z)
-    for (int y = 0; y < 8; ++y)
-      for (int x = 0; x < 8; ++x) coarse.push_back({{x, y, z}, levelLeaf(3.0f)});
-  const Texel texel = Texel::fromEntries({32, 64, 1.0, 2.0}, std::move(fine)).value();
-  const Texel quarter = Texel::fromEntries({8, 16, 1.0, 2.0}, std::move(coarse)).value();
-  const TexelSky dark{std::vector<float>(texel.size(), 0.0f), std::vector<float>(texel.size(), 0.0f),
-                      std::vector<float>(1024, 0.0f)};
-  const TexelLight light{glm::normalize(glm::dvec3(0.4, 0.3, 0.8)), glm::dvec3(1.0), glm::dvec3(0.0)};
-  const LitTexel all = lightTexel(texel, nullptr, dark, light, {}).value();
-  const LitTexel far = lightTexel(texel, &quarter, dark, light, {}).value();
-  // The same medium gives the same depth to rounding; both stop at a depth of 8.
-  for (std::size_t i = 0; i < texel.size(); i += 97) EXPECT_NEAR(far.voxels[i].sun, all.voxels[i].sun, 4e-4);
-  EXPECT_NEAR(far.groundSun[5], all.groundSun[5], 4e-4);
-  EXPECT_NEAR(all.groundSun[5], std::exp(-6.0), 1e-5);
-}
-
 TEST(TexelLight, ThreadsGiveTheSameBytes) {
-  const Texel texel = layers({2, 9, 11}, 5.0f);
+  const Blades blades = uprightBlades(120, 48, 0.8);
   JobContext one, four;
   one.threads = 1;
   four.threads = 4;
-  const TexelSky a = marchedSky(texel, one).value(), b = marchedSky(texel, four).value();
+  const TexelSky a = sweptSky(blades.texel, one).value(), b = sweptSky(blades.texel, four).value();
   EXPECT_EQ(a.front, b.front);
   EXPECT_EQ(a.back, b.back);
   EXPECT_EQ(a.ground, b.ground);
+  const glm::dvec3 toSun = glm::normalize(glm::dvec3(-2.0, 0.7, 0.5));
+  const SunReach c = sunReach(blades.texel, toSun, one).value(), d = sunReach(blades.texel, toSun, four).value();
+  EXPECT_EQ(c.voxels, d.voxels);
+  EXPECT_EQ(c.ground, d.ground);
+}
+
+TEST(TexelLight, EndsWhenItIsAskedTo) {
+  const Texel texel = layers({2, 9}, 5.0f);
+  std::stop_source stop;
+  stop.request_stop();
+  const JobContext job{stop.get_token(), {}, 1};
+  EXPECT_EQ(sweptSky(texel, job).error().kind, ErrorKind::Cancelled);
+  EXPECT_EQ(sunReach(texel, {0.0, 0.0, 1.0}, job).error().kind, ErrorKind::Cancelled);
 }
 
 }  // namespace

@@ -147,6 +147,11 @@ void marchVoxels(Grid grid, vec3 d, float tEnd, float lot, float otherLot) {
     float way = first < 0 ? min(exits.x, min(exits.y, exits.z)) : 0.0;
     t += stride * max(ceil(way / stride), 1.0);
   }
+  // What little an opaque ray has left is given to what it saw.
+  if (g_left <= kTransmittanceEnd) {
+    g_sum *= before / max(before - g_left, 1e-6);
+    g_left = 0.0;
+  }
   for (int i = 0; i < 4; ++i) {
     if (g_left < firstPicks[i]) g_sum += 0.125 * before * highlight(firstPicked[i], d);
     if (g_left < lastPicks[i]) g_sum += 0.125 * before * highlight(lastPicked[i], d);
@@ -217,18 +222,17 @@ vec3 marchShell(Walk walk, vec3 d, float bend, bool soilSeen, vec3 random) {
     radiance += g_left * colour30(texelFetch(t_soil, column.y * u_columns + column.x).r);
     g_left = 0.0;
   }
-  // What little an opaque ray has left is given to what it saw.
-  if (g_left <= kTransmittanceEnd) {
-    radiance *= before / max(before - g_left, 1e-6);
-    g_left = 0.0;
-  }
   return radiance * u_radianceRange * macroTint(walk.place, walk.tEnter, random);
 }
 
 #if SWARD_TERRAIN
+// `within`: it is in the shell there, at a height that is not known: the middle stands for it.
 // `leaveM`: where it comes out of the shell's top, as far as the ground's bend tells.
-vec3 marchTerrain(vec3 d, float enterM, bool last, vec3 random, out bool soilSeen, out float leaveM) {
+vec3 marchTerrain(vec3 d, float enterM, bool last, bool within, vec3 random, out bool soilSeen,
+                  out float leaveM) {
   TerrainWalk w = startTerrain(d, enterM, last);
+  if (within) w.walk.heightM *= 0.5;
+  if (within) w.walk.tEnd *= 0.5;
   soilSeen = w.soilSeen;
   // The bend is that of the next metres: farther on it says nothing.
   if (!soilSeen) w.walk.tEnd = min(w.walk.tEnd, kBendReach * max(v_heightM * w.walk.path, u_lookAheadM));
@@ -251,14 +255,19 @@ void main() {
     float next = inside ? first : texelFetch(t_second, pixel, 0).r;
     bool last = next <= 0.0 && d.z < -kMeshHorizon;
     float enter = inside ? 0.0 : first;
+    bool within = false;
     for (int i = 0; i < 2; ++i) {
       bool soilSeen;
       float leave;
-      seen += marchTerrain(d, enter, last, random, soilSeen, leave);
+      seen += marchTerrain(d, enter, last, within, random, soilSeen, leave);
       if (soilSeen || g_left <= 0.0) break;
-      // A ray that still sinks toward the ground where it seemed to leave, and does not enter before, is in the shell.
-      bool sinks = d.z - dot(terrainAt(d.xy, leave).xy, d.xy) < 0.0 && !last;
-      enter = sinks && (next <= 0.0 || next > leave) ? leave : next;
+      // A ray that still sinks toward the ground where it seemed to leave, or as far again beyond by more than it rises
+      // there, and does not enter before, has never left the shell.
+      float beyond = 2.0 * leave - enter;
+      vec2 slopes = d.z - vec2(dot(terrainAt(d.xy, leave).xy, d.xy), dot(terrainAt(d.xy, beyond).xy, d.xy));
+      leave = slopes.x < 0.0 ? leave : beyond;
+      within = min(slopes.x, slopes.x + slopes.y) < 0.0 && !last && (next <= 0.0 || next > leave);
+      enter = within ? leave : next;
       if (enter <= 0.0) break;
       last = true;
     }

@@ -26,6 +26,7 @@ constexpr int kRepresentationVersion = 1;
 constexpr int kTilesVersion = 2;
 constexpr int kStackVersion = 2;
 constexpr int kGroundVersion = 2;
+constexpr int kWitherVersion = 2;  ///< of how plants age
 
 Hasher start(std::string_view kind, int version) {
   Hasher hasher;
@@ -63,7 +64,7 @@ Result<PlantHash> plantHash(const project::Project& project, const project::Plan
 void addWithering(const project::Project& project, Role role, Hasher& hasher) {
   if (!withers(project)) return;
   const wither::WitherOptions& wither = project.wither;
-  hasher.add(std::string_view("wither")).add(wither.weathering).add(wither.mingle.size());
+  hasher.add(std::string_view("wither")).add(kWitherVersion).add(wither.weathering).add(wither.mingle.size());
   project::hashValues(hasher, wither.ageing, role);
   project::hashValues(hasher, wither.body, role);
   for (const wither::MingleSample& sample : wither.mingle) project::hashValues(hasher, sample, role);

@@ -7,7 +7,6 @@
 #include "bake/soil.h"
 #include "bake/texel_payload.h"
 #include "bake/withering.h"
-#include "base/check.h"
 #include "project/value_hash.h"
 #include "wither/points.h"
 #include "wither/pose.h"
@@ -26,7 +25,7 @@ namespace sward::bake {
 namespace {
 
 constexpr int kRestVersion = 1;   ///< raise it when what texels are aged from changes for the same project
-constexpr int kTexelVersion = 3;  ///< the same of the texels
+constexpr int kTexelVersion = 4;  ///< the same of the texels
 constexpr const char* kRestKind = "rest";
 constexpr int kCoarsest = 8;  ///< columns of the coarsest level: a voxel is then as wide as a tuft
 /// Bent blades and the round of a splat's edge reach a little over the tallest plant.
@@ -134,7 +133,6 @@ struct TexelBaker::Impl {
   AssetHashes assets;
   std::list<Rest> held;  ///< the last kHeld: one of every quality
   static constexpr std::size_t kHeld = 3;
-  wither::Points moved;
 
   Result<const Rest*> rest(const project::Project& project, const JobContext& job, DiskCache* disk,
                            TexelReport& report) {
@@ -164,18 +162,21 @@ struct TexelBaker::Impl {
       }
     }
     report.rest = TexelReport::Rest::Made;
-    SWARD_ASSIGN(const TexelRest made, makeRest(project, job));
+    SWARD_ASSIGN(TexelRest made, makeRest(project, job));
     // Loops that were cancelled leave ranges out without saying so.
     if (job.cancelled()) return Error::cancelled();
     const std::vector<std::byte> payload = payloadOf(made);
-    if (disk != nullptr) {
-      if (const auto stored = disk->put(kRestKind, key, payload); !stored.ok()) {
-        report.warnings.push_back(stored.error().text());
-      }
-    }
     // What the disk gives back, whether there is one or not: texels must not depend on it.
     auto stored = fromPayload<TexelRest>(payload);
-    SWARD_CHECK(stored.has_value());
+    if (!stored) {  // values that packing has no codes for, which no valid project should give
+      report.warnings.emplace_back("the blades at rest cannot be packed, and are grown anew by the next run");
+      return heldRest(project, key, std::move(made), 0, job);
+    }
+    if (disk != nullptr) {
+      if (const auto kept = disk->put(kRestKind, key, payload); !kept.ok()) {
+        report.warnings.push_back(kept.error().text());
+      }
+    }
     return heldRest(project, key, std::move(*stored), payload.size(), job);
   }
 };
@@ -227,12 +228,12 @@ Result<std::shared_ptr<const TexelBake>> TexelBaker::texels(const project::Proje
   SWARD_ASSIGN(const Rest* rest, m_impl->rest(project, job, disk, done));
   done.restSeconds = secondsSince(start);
   SWARD_ASSIGN(const Ageing ageing, ageingOf(project));
-  wither::Points& moved = m_impl->moved;
-  moved = {};
+  wither::Points moved;
   SWARD_TRY(wither::pose(rest->points, rest->strands, ageing.season, project.wither.mingle, project.wither.weathering,
                          ageing.colour, moved, job));
   scaleByDensity(project, rest->strands, moved);
   SWARD_ASSIGN(wither::Texel finest, wither::pointsToTexel(moved, rest->grid, project.wither.texel.splatVoxels, job));
+  moved = {};  // hundreds of megabytes, while levels are made
   done.ageSeconds = secondsSince(start);
   TexelBake bake;
   bake.weathering = project.wither.weathering;

@@ -7,12 +7,13 @@
 namespace sward::wither {
 namespace {
 
-/// Nothing that grows is blacker, and none of the model's channels is: tints stay finite.
+/// Nothing that grows is blacker: tints stay finite. A fresh leaf lets through no blue that a display could show; that
+/// channel counts as so dark throughout, since an authored one would go black at the season's first moment otherwise.
 constexpr double kDarkest = 1e-3;
 
 double aged(double colour, double fresh, double now, double exponent) {
   const double tint = std::max(colour, kDarkest) / std::max(fresh, kDarkest);
-  return std::max(now, 0.0) * std::pow(tint, exponent);
+  return std::max(now, kDarkest) * std::pow(tint, exponent);
 }
 
 }  // namespace

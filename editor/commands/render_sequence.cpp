@@ -1,5 +1,6 @@
 #include "render_plan.h"
 
+#include "bake/withering.h"
 #include "base/file.h"
 #include "export/frame_files.h"
 #include "export/frame_manifest.h"
@@ -111,6 +112,9 @@ Result<SequencePlan> planSequence(const Program& program, const RenderRequest& r
   // Whatever is wrong with the light or the view is said before hours are spent on other frames.
   SWARD_ASSIGN(const scene::Daylight daylight, render::daylightOf(plan.project));
   SWARD_TRY(render::planFrame(plan.project, plan.view, daylight, plan.exposureEv));
+  if (!bake::drawnAsTexels(plan.project)) {
+    warn(program, "layers are sampled anew for every frame, and shimmer; texels do not (--method texels)");
+  }
   SWARD_ASSIGN(plan.terrain, requestedTerrain(program, plan.project));
   SWARD_ASSIGN(plan.common, hashOfCommon(plan));
   plan.settings = settingsText(plan);
@@ -120,12 +124,18 @@ Result<SequencePlan> planSequence(const Program& program, const RenderRequest& r
 /// Names everything that decides a frame's picture.
 Result<std::string> keyOf(const SequencePlan& plan, project::Project at, bake::Baker& baker) {
   SWARD_ASSIGN(const base::Hash128 ground, baker.key({at, bake::Quality::Full, {}}));
+  base::Hasher hasher;
+  hasher.add(plan.common).add(ground);
+  if (!bake::drawnAsTexels(at)) {  // tiles lie as in the first frame
+    const project::Project start = project::projectAt(plan.project, 0);
+    SWARD_ASSIGN(const base::Hash128 first, baker.key({start, bake::Quality::Full, {}}));
+    hasher.add(first);
+  }
   // What other views and frames there are, and the name, show in no picture.
   at.name.clear();
   at.views = {plan.view};
   at.sequence = {};
-  base::Hasher hasher;
-  hasher.add(plan.common).add(ground).add(std::string_view(project::toJson(at)));
+  hasher.add(std::string_view(project::toJson(at)));
   return hasher.finish().hex();
 }
 
@@ -159,6 +169,22 @@ class SequencePainter {
   }
 
  private:
+  /// Where the tiles of layers lie in all frames: as in the sequence's first, whoever draws it, so that they do not
+  /// jump from frame to frame.
+  Result<void> findLayout() {
+    if (m_first || bake::drawnAsTexels(m_plan.project)) return {};
+    SWARD_ASSIGN(m_first, m_baker.ground(project::projectAt(m_plan.project, 0), jobOf(0)));
+    m_layout = bake::layoutOf(*m_first);
+    return {};
+  }
+
+  Result<std::shared_ptr<const bake::GroundBake>> groundOf(int number, const project::Project& at,
+                                                           bake::BakeReport& report) {
+    SWARD_TRY(findLayout());
+    if (number == 0 && m_first) return m_first;
+    return m_baker.ground({at, bake::Quality::Full, m_layout}, jobOf(number), &report);
+  }
+
   /// Lists all frames with their keys; those that need drawing are marked so.
   Result<void> findWhole(bool force) {
     const exporting::FrameManifest known = exporting::readManifest(m_plan.pattern.manifest());
@@ -198,7 +224,7 @@ class SequencePainter {
     SWARD_ASSIGN(const scene::Daylight daylight, render::daylightOf(at));
     SWARD_ASSIGN(const render::Frame frame, render::planFrame(at, m_plan.view, daylight, m_plan.exposureEv));
     bake::BakeReport baked;
-    SWARD_ASSIGN(auto ground, m_baker.ground(at, jobOf(done.entry.frame), &baked));
+    SWARD_ASSIGN(auto ground, groundOf(done.entry.frame, at, baked));
     SWARD_TRY(m_renderer->setGround(std::move(ground)));
     done.seconds.bake = watch.lap();
     for (const std::string& warning : baked.warnings) warnOnce(warning);
@@ -264,6 +290,8 @@ class SequencePainter {
   gpu::Context& m_context;
   bake::Baker m_baker;
   ProgressBar m_bar;
+  std::shared_ptr<const bake::GroundBake> m_first;  ///< of layers: the sequence's first frame
+  std::vector<glm::ivec2> m_layout;
   std::unique_ptr<render::Renderer> m_renderer;
   std::vector<DoneFrame> m_done;
   std::size_t m_whole = 0, m_drawn = 0;

@@ -86,6 +86,31 @@ void drawLegend(const std::array<Line, 3>& lines, double moment, ImVec2 min, ImV
   }
 }
 
+/// The next item goes on in the line where it fits, else it begins another.
+void besideIfRoom(float gap, float width) {
+  const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  if (ImGui::GetItemRectMax().x + gap + width <= end) ImGui::SameLine(0.0f, gap);
+}
+
+/// Labels under the timeline: its ends, and as many tenths between them as have room.
+void drawMoments(ImDrawList& draw, const ImVec2& origin, float width, float top) {
+  const FontScope font(theme().fonts.small);
+  const ImU32 colour = theme().colours.textDim;
+  const std::string first = "Season's beginning", last = "end";
+  float taken = origin.x + ImGui::CalcTextSize(first.c_str()).x;
+  const float end = origin.x + width - ImGui::CalcTextSize(last.c_str()).x;
+  draw.AddText({origin.x, top}, colour, first.c_str());
+  draw.AddText({end, top}, colour, last.c_str());
+  for (int tenth = 1; tenth < 10; ++tenth) {
+    const std::string label = std::to_string(10 * tenth) + " %";
+    const float wide = ImGui::CalcTextSize(label.c_str()).x;
+    const float left = origin.x + 0.1f * static_cast<float>(tenth) * width - 0.5f * wide;
+    if (left < taken + px(8.0f) || left + wide > end - px(8.0f)) continue;
+    draw.AddText({left, top}, colour, label.c_str());
+    taken = left + wide;
+  }
+}
+
 }  // namespace
 
 std::uint32_t seasonColour(std::string_view path) {
@@ -163,7 +188,9 @@ void SeasonPanel::release(PanelContext& context) {
 
 void SeasonPanel::controls(PanelContext& context) {
   playControls(context);
-  ImGui::SameLine(0.0f, px(16.0f));
+  besideIfRoom(px(10.0f), px(216.0f));
+  sequence(context);
+  besideIfRoom(px(16.0f), px(120.0f));
   degree(context);
   layersNote(context);
 }
@@ -188,8 +215,6 @@ void SeasonPanel::playControls(PanelContext& context) {
     context.edits.run("season.stop");
   ImGui::SameLine(0.0f, px(4.0f));
   if (toolToggle("season.loop", icon::kRefresh, play.loop, "Begin again at the end")) play.loop = !play.loop;
-  ImGui::SameLine(0.0f, px(10.0f));
-  sequence(context);
 }
 
 /// How many frames the sequence has and how fast they play: fields of the project, in the panel that plays them.
@@ -278,19 +303,10 @@ void SeasonPanel::timeline(PanelContext& context) {
   draw->PushClipRect(origin, {origin.x + size.x, origin.y + size.y}, true);
   draw->AddRectFilled(origin, {origin.x + size.x, origin.y + base}, colours.plot, px(4.0f));
   for (const double value : {0.0, 0.5, 1.0}) draw->AddLine({x(0.0), y(value)}, {x(1.0), y(value)}, colours.plotGrid);
-  {
-    const FontScope font(theme().fonts.small);
-    for (int tenth = 0; tenth <= 10; ++tenth) {
-      draw->AddLine({x(0.1 * tenth), origin.y}, {x(0.1 * tenth), origin.y + base}, colours.plotGrid);
-      const std::string label = tenth == 0    ? "Season's beginning"
-                                : tenth == 10 ? "end"
-                                : tenth == 1  ? ""
-                                              : std::to_string(10 * tenth) + " %";
-      const float width = ImGui::CalcTextSize(label.c_str()).x;
-      const float left = std::clamp(x(0.1 * tenth) - 0.5f * width, origin.x, origin.x + size.x - width);
-      draw->AddText({left, origin.y + base + px(2.0f)}, colours.textDim, label.c_str());
-    }
+  for (int tenth = 0; tenth <= 10; ++tenth) {
+    draw->AddLine({x(0.1 * tenth), origin.y}, {x(0.1 * tenth), origin.y + base}, colours.plotGrid);
   }
+  drawMoments(*draw, origin, size.x, origin.y + base + px(2.0f));
   const std::array<Line, 3> lines = linesOf(ageing);
   for (const Line& line : lines) {
     std::array<ImVec2, kSteps + 1> points;

@@ -28,8 +28,8 @@ std::vector<std::uint32_t> cornersOf(const Frame& frame) {
 }
 
 void bind(gpu::Program& program, const TexelSet& texels, const PassInput& input, const gpu::Texture& blocks) {
-  constexpr std::array<const char*, 8> kSamplers{"t_blocks", "t_map",    "t_sky",    "t_horizon",
-                                                 "t_bricks", "t_voxels", "t_leaves", "t_soil"};
+  constexpr std::array<const char*, 8> kSamplers{"t_blocks", "t_map",    "t_sky",     "t_horizon",
+                                                 "t_bricks", "t_voxels", "t_glosses", "t_soil"};
   // The terrain's begin at 5: those of the texels stand above them.
   constexpr std::array<int, 8> kUnits{0, 1, 2, 3, 8, 9, 10, 11};
   for (std::size_t i = 0; i < kSamplers.size(); ++i) setIfUsed(program, kSamplers[i], kUnits[i]);
@@ -37,7 +37,7 @@ void bind(gpu::Program& program, const TexelSet& texels, const PassInput& input,
   input.map->bind(1);
   input.sky->bind(2);
   input.horizon->bind(3);
-  texels.bind(8, 9, 10, 11);
+  texels.bind(8);
   if (input.terrain != nullptr) input.terrain->bind(program, *input.mesh);
 }
 
@@ -50,7 +50,7 @@ void setLevels(gpu::Program& program, const TexelSet& set) {
   if (program.has("u_levelStart")) program.set("u_levelStart", std::span<const unsigned>(starts));
   setIfUsed(program, "u_columns", grid.columns);
   setIfUsed(program, "u_layers", grid.layers);
-  setIfUsed(program, "u_densityRange", static_cast<float>(set.densityRange()));
+  setIfUsed(program, "u_extinctionRange", static_cast<float>(set.extinctionRange()));
   setIfUsed(program, "u_radianceRange", static_cast<float>(set.radianceRange()));
 }
 
@@ -83,7 +83,7 @@ Result<void> TexelPass::draw(ProgramCache& programs, const TexelSet& texels, con
   const Defines defines{{"SWARD_SKY", "1"}, {"SWARD_TERRAIN", input.terrain != nullptr ? "1" : "0"}};
   SWARD_ASSIGN(gpu::Program * program,
                programs.blocks("texels/march.frag", defines,
-                               {"t_blocks", "t_bricks", "t_voxels", "t_leaves", "t_map", "u_columns", "u_heightM"}));
+                               {"t_blocks", "t_bricks", "t_voxels", "t_map", "u_columns", "u_heightM"}));
   gpu::gl().Viewport(0, 0, frame.width, frame.height);
   m_vertices.bind();
   program->use();

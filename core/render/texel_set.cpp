@@ -1,6 +1,7 @@
 #include "render/texel_set.h"
 
 #include "base/parallel.h"
+#include "base/random.h"
 #include "wither/extinction.h"
 
 #include <algorithm>
@@ -19,7 +20,10 @@ using wither::Voxel;
 
 constexpr int kBrick = wither::TexelGrid::kBrick;
 constexpr std::size_t kBrickVoxels = std::size_t{kBrick} * kBrick * kBrick;
+constexpr std::size_t kVoxelWords = 2;
 constexpr std::size_t kGrain = 4096;
+constexpr std::size_t kBrickGrain = 64;
+constexpr int kMostEmptyPower = 6;  ///< a ray passes empty cubes of up to 64 voxels in one step
 
 /// Texels of a texture buffer: what Mesa's software renderer and common GPUs take (OpenGL grants 2^16 alone).
 constexpr std::size_t kMostTexels = std::size_t{1} << 27;
@@ -57,64 +61,82 @@ double brightest(const wither::TexelLight& light) {
   return std::max({radiance.r, radiance.g, radiance.b, 1e-9});
 }
 
-/// One over the ranges that the words of leaves are kept in.
+/// The upper half of the sphere on two bytes: a normal and its opposite are one.
+std::uint32_t hemisphere(const glm::vec3& normal) {
+  const float sum = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);
+  const float scale = sum > 0.0f ? (normal.z < 0.0f ? -127.0f : 127.0f) / sum : 0.0f;
+  return nearest(normal.x * scale + 128.0f) | nearest(normal.y * scale + 128.0f) << 8;
+}
+
+/// Extinctions along the normal and across it, 1/m: wither/extinction.h of S = share n n^T + (1 - share) I / 3.
+glm::vec2 extinctions(float density, float share) {
+  const glm::vec2 eigen(1.0f + 2.0f * share, 1.0f - share);
+  return density * glm::sqrt(eigen * (5.0f + eigen) * (1.0f / 24.0f));
+}
+
+/// One over the ranges that words are kept in.
 struct PerRange {
-  float density = 1.0f, radiance = 1.0f;
+  float extinction = 1.0f, radiance = 1.0f;
 };
 
-std::array<std::uint32_t, 4> leafWords(const Voxel& voxel, float share, const wither::LitVoxel& lit, float sun,
-                                       const PerRange& per) {
-  const std::uint32_t density = std::max(byteOf(std::sqrt(voxel.density * per.density)), 1u);
-  return {octahedral(voxel.normal) | octahedral(voxel.tangent) << 16, colour30(lit.front, per.radiance),
-          colour30(lit.back, per.radiance), density | byteOf(share) << 8 | byteOf(voxel.specular * sun) << 16};
+std::uint32_t mediumWord(const Voxel& voxel, float share, const PerRange& per) {
+  const glm::vec2 extinction = extinctions(voxel.density, share);
+  const std::uint32_t along = std::max(byteOf(std::sqrt(extinction.x * per.extinction)), 1u);
+  return hemisphere(voxel.normal) | byteOf(extinction.y / extinction.x) << 16 | along << 24;
 }
 
-std::size_t leafCount(const bake::TexelBake& bake) {
-  std::size_t count = 0;
-  for (const auto& level : bake.levels) count += level.texel->size();
-  return count;
+/// Five, six and five bits of the square root over the range, rounded up or down by lot: the mean of many has no steps.
+std::uint32_t colour16(const glm::vec3& radiance, float perRange, std::uint32_t lots) {
+  const auto code = [&](float v, float levels, int shift) {
+    const float lot = static_cast<float>(lots >> shift & 0x3ffu) * (1.0f / 1024.0f);
+    return static_cast<std::uint32_t>(std::sqrt(std::clamp(v * perRange, 0.0f, 1.0f)) * levels + lot);
+  };
+  return code(radiance.r, 31.0f, 0) | code(radiance.g, 63.0f, 10) << 5 | code(radiance.b, 31.0f, 20) << 11;
 }
 
-/// Bricks and voxels of all levels, which name leaves in the order of the levels' voxels.
-struct Places {
-  std::vector<std::int32_t> bricks;
-  std::vector<std::uint32_t> voxels;
-  std::vector<int> levelStarts;
-};
+std::uint32_t colourWord(const Voxel& voxel, const wither::LitVoxel& lit, float perRange, std::uint64_t lots) {
+  // The medium's normal points up: colours are kept by its sides. Without a normal both sides are the front.
+  const bool none = voxel.normal == glm::vec3(0.0f);
+  const glm::vec3& upper = voxel.normal.z < 0.0f ? lit.back : lit.front;
+  const glm::vec3& lower = voxel.normal.z < 0.0f || none ? lit.front : lit.back;
+  return colour16(upper, perRange, static_cast<std::uint32_t>(lots)) |
+         colour16(lower, perRange, static_cast<std::uint32_t>(lots >> 32)) << 16;
+}
 
-Places placesOf(const bake::TexelBake& bake) {
-  Places places;
-  std::uint32_t firstLeaf = 0;
-  for (const auto& level : bake.levels) {
-    const Texel& texel = *level.texel;
-    const std::size_t firstWord = places.voxels.size();
-    places.levelStarts.push_back(static_cast<int>(places.bricks.size()));
-    for (const std::int32_t stored : texel.bricks()) {
-      places.bricks.push_back(
-          stored < 0 ? -1 : static_cast<std::int32_t>(firstWord + static_cast<std::size_t>(stored) * kBrickVoxels));
-    }
-    places.voxels.resize(firstWord + texel.stored().size() * kBrickVoxels, 0);
-    base::parallelFor({}, texel.stored().size(), 64, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t b = begin; b < end; ++b) {
-        const Texel::Brick& brick = texel.stored()[b];
-        std::uint32_t* words = places.voxels.data() + firstWord + b * kBrickVoxels;
-        std::uint32_t index = firstLeaf + brick.first;
-        for (std::size_t z = 0; z < brick.mask.size(); ++z) {
-          for (std::uint64_t bits = brick.mask[z]; bits != 0; bits &= bits - 1) {
-            words[z * 64 + static_cast<std::size_t>(std::countr_zero(bits))] = ++index;
-          }
+/// Of a voxel (x, y, z) in its brick, given as (z * 8 + y) * 8 + x: eight that form a cube follow each other, so that
+/// they lie in one line of the processor's cache.
+std::size_t placeOf(std::size_t v) {
+  const std::size_t x = v & 7, y = v >> 3 & 7, z = v >> 6;
+  return (z >> 1) << 7 | (y >> 1) << 5 | (x >> 1) << 3 | (z & 1) << 2 | (y & 1) << 1 | (x & 1);
+}
+
+/// -1 - power for every empty brick: the largest aligned cube of 2^power voxels round it that is empty and lies in the
+/// grid; others stay.
+void markEmptyBricks(const wither::TexelGrid& grid, std::span<std::int32_t> bricks) {
+  const glm::ivec3 size = grid.size() / kBrick;
+  const auto at = [&](int x, int y, int z) { return static_cast<std::size_t>((z * size.y + y) * size.x + x); };
+  for (int power = 1; power <= kMostEmptyPower - 3; ++power) {
+    const int side = 1 << power;
+    if (size.x % side != 0 || size.z % side != 0) return;
+    for (int z = 0; z < size.z; z += side)
+      for (int y = 0; y < size.y; y += side)
+        for (int x = 0; x < size.x; x += side) {
+          bool empty = true;
+          const auto inside = [&](int i) { return at(x + i % side, y + i / side % side, z + i / (side * side)); };
+          for (int i = 0; i < side * side * side && empty; ++i) empty = bricks[inside(i)] < 0;
+          for (int i = 0; i < side * side * side && empty; ++i) bricks[inside(i)] = -4 - power;
         }
-      }
-    });
-    firstLeaf += static_cast<std::uint32_t>(texel.size());
   }
-  return places;
 }
 
-float densest(std::span<const Voxel> voxels) {
+/// The largest extinction of them, 1/m.
+float mostExtinction(std::span<const Voxel> voxels) {
   std::vector<float> most((voxels.size() + kGrain - 1) / kGrain, 0.0f);
   base::parallelFor({}, voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) most[begin / kGrain] = std::max(most[begin / kGrain], voxels[i].density);
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto share = static_cast<float>(wither::normalShare(voxels[i]));
+      most[begin / kGrain] = std::max(most[begin / kGrain], extinctions(voxels[i].density, share).x);
+    }
   });
   return most.empty() ? 0.0f : *std::max_element(most.begin(), most.end());
 }
@@ -128,53 +150,75 @@ gpu::Buffer bufferOf(const std::vector<T>& values) {
 
 Result<TexelSet> TexelSet::create(std::shared_ptr<const bake::TexelBake> bake) {
   if (!bake || bake->levels.empty()) return Error::failed("there are no texels", "render");
-  std::size_t words = 0;
-  for (const auto& level : bake->levels) words += level.texel->stored().size() * kBrickVoxels;
-  if (std::max(words, leafCount(*bake)) > kMostTexels) {
+  std::size_t places = 0;
+  for (const auto& level : bake->levels) places += level.texel->stored().size() * kBrickVoxels;
+  if (places * kVoxelWords > kMostTexels) {
     return Error::failed("the texel has more voxels than the renderer can hold", "wither.texel.resolution",
                          "Lower wither.texel.resolution, or plant less on the patch.");
   }
   TexelSet set;
+  std::vector<std::int32_t> bricks;
+  std::size_t firstPlace = 0;
   for (const auto& level : bake->levels) {
-    set.m_densityRange = std::max(set.m_densityRange, double{densest(level.texel->voxels())});
+    const Texel& texel = *level.texel;
+    const std::size_t firstBrick = bricks.size();
+    set.m_levelStarts.push_back(static_cast<int>(firstBrick));
+    for (const std::int32_t stored : texel.bricks()) {
+      bricks.push_back(
+          stored < 0 ? -4 : static_cast<std::int32_t>(firstPlace + static_cast<std::size_t>(stored) * kBrickVoxels));
+    }
+    markEmptyBricks(texel.grid(), std::span(bricks).subspan(firstBrick));
+    firstPlace += texel.stored().size() * kBrickVoxels;
+    set.m_extinctionRange = std::max(set.m_extinctionRange, double{mostExtinction(texel.voxels())});
   }
-  const Places places = placesOf(*bake);
-  set.m_levelStarts = places.levelStarts;
-  set.m_bricks = bufferOf(places.bricks);
-  set.m_voxels = bufferOf(places.voxels);
+  set.m_places = places;
+  set.m_bricks = bufferOf(bricks);
   set.m_bricksView = gpu::Texture::ofBuffer(GL_R32I, set.m_bricks);
-  set.m_voxelsView = gpu::Texture::ofBuffer(GL_R32UI, set.m_voxels);
   set.m_bake = std::move(bake);
   return set;
 }
 
 Result<void> TexelSet::relight(const wither::TexelLight& light, const JobContext& job) {
   m_radianceRange = brightest(light);
-  const PerRange per{static_cast<float>(1.0 / m_densityRange), static_cast<float>(1.0 / m_radianceRange)};
+  const PerRange per{static_cast<float>(1.0 / m_extinctionRange), static_cast<float>(1.0 / m_radianceRange)};
   const wither::LeafShading shading(light);
-  const std::size_t count = leafCount(*m_bake);
-  const auto leaves = std::make_unique_for_overwrite<std::array<std::uint32_t, 4>[]>(count);
+  std::vector<std::uint32_t> words(m_places * kVoxelWords, 0), glosses(m_places, 0);
   std::size_t first = 0;
   for (const auto& level : m_bake->levels) {
-    SWARD_ASSIGN(const wither::SunReach reach, wither::sunReach(*level.texel, light.toSun, job));
-    const std::span<const Voxel> voxels = level.texel->voxels();
-    base::parallelFor(job, voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const auto share = static_cast<float>(wither::normalShare(voxels[i]));
-        const wither::LitVoxel lit = shading(voxels[i], share, level.sky.front[i], level.sky.back[i], reach.voxels[i]);
-        leaves[first + i] = leafWords(voxels[i], share, lit, reach.voxels[i], per);
+    const Texel& texel = *level.texel;
+    SWARD_ASSIGN(const wither::SunReach reach, wither::sunReach(texel, light.toSun, job));
+    const auto fill = [&](std::size_t place, std::size_t i) {
+      const Voxel& voxel = texel.voxels()[i];
+      const auto share = static_cast<float>(wither::normalShare(voxel));
+      const wither::LitVoxel lit = shading(voxel, share, level.sky.front[i], level.sky.back[i], reach.voxels[i]);
+      words[place * kVoxelWords] = mediumWord(voxel, share, per);
+      words[place * kVoxelWords + 1] = colourWord(voxel, lit, per.radiance, base::mix64(place));
+      glosses[place] = octahedral(voxel.tangent) | byteOf(voxel.specular * reach.voxels[i]) << 16;
+    };
+    base::parallelFor(job, texel.stored().size(), kBrickGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t b = begin; b < end; ++b) {
+        const Texel::Brick& brick = texel.stored()[b];
+        std::size_t i = brick.first;
+        for (std::size_t z = 0; z < brick.mask.size(); ++z) {
+          for (std::uint64_t bits = brick.mask[z]; bits != 0; bits &= bits - 1) {
+            const std::size_t v = z * 64 + static_cast<std::size_t>(std::countr_zero(bits));
+            fill(first + b * kBrickVoxels + placeOf(v), i++);
+          }
+        }
       }
     });
     if (&level == m_bake->levels.data()) setSoil(light, reach.ground, per.radiance);
-    first += voxels.size();
+    first += texel.stored().size() * kBrickVoxels;
   }
   if (job.cancelled()) return Error::cancelled();
-  const std::span<const std::array<std::uint32_t, 4>> words(leaves.get(), count);
-  if (m_leaves.size() == 0) {
-    m_leaves = gpu::Buffer(words.size_bytes());
-    m_leavesView = gpu::Texture::ofBuffer(GL_RGBA32UI, m_leaves);
+  if (m_voxels.size() == 0) {
+    m_voxels = gpu::Buffer(std::span(words).size_bytes());
+    m_voxelsView = gpu::Texture::ofBuffer(GL_R32UI, m_voxels);
+    m_glosses = gpu::Buffer(std::span(glosses).size_bytes());
+    m_glossesView = gpu::Texture::ofBuffer(GL_R32UI, m_glosses);
   }
-  m_leaves.write(std::as_bytes(words));
+  m_voxels.write(std::as_bytes(std::span(words)));
+  m_glosses.write(std::as_bytes(std::span(glosses)));
   return {};
 }
 
@@ -191,14 +235,14 @@ void TexelSet::setSoil(const wither::TexelLight& light, std::span<const float> g
 }
 
 std::uint64_t TexelSet::bytes() const {
-  return m_bricks.size() + m_voxels.size() + m_leaves.size() + m_soil.size();
+  return m_bricks.size() + m_voxels.size() + m_glosses.size() + m_soil.size();
 }
 
-void TexelSet::bind(GLuint bricks, GLuint voxels, GLuint leaves, GLuint soil) const {
-  m_bricksView.bind(bricks);
-  m_voxelsView.bind(voxels);
-  m_leavesView.bind(leaves);
-  m_soilView.bind(soil);
+void TexelSet::bind(GLuint first) const {
+  m_bricksView.bind(first);
+  m_voxelsView.bind(first + 1);
+  m_glossesView.bind(first + 2);
+  m_soilView.bind(first + 3);
 }
 
 }  // namespace sward::render

@@ -6,6 +6,8 @@
 #include "gpu/objects.h"
 #include "wither/texel_light.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -15,12 +17,15 @@
 namespace sward::render {
 
 /// The levels of a texel as shaders/texels/march.frag reads them. Of all levels in one:
-///   bricks  [level][z][y][x] where the brick's 512 words start in `voxels`; -1: empty
-///   voxels  index into `leaves`, from 1; 0: empty
-///   leaves  four words a voxel: normal | tangent << 16 (octahedral, two bytes each), radiance on the normal's side,
-///           on the other (10 bits a channel, the square root over radianceRange), density (square root over
-///           densityRange) | share of the normal << 8 | highlight times sunlight << 16, a byte each
-///   soil    lit soil of level 0's columns, as the radiances are kept
+///   bricks   [level][z][y][x] where the brick's 512 voxels start; -1 - p where it is empty and lies in an empty cube
+///   of
+///            2^p voxels a side, aligned to its size
+///   voxels   two words each, in cubes of eight. What dims a ray, 0 where nothing does: normal of the upper hemisphere
+///            (octahedral, a byte each) | extinction across it over that along it << 16 | extinction along it (square
+///            root over extinctionRange, at least 1) << 24. And radiance on the normal's upper side | on its lower side
+///            << 16 (5, 6 and 5 bits of the square root over radianceRange)
+///   glosses  a word a voxel: tangent (octahedral, two bytes) | highlight times sunlight << 16
+///   soil     lit soil of level 0's columns, 10 bits a channel of the square root over radianceRange
 class TexelSet {
  public:
   /// Uploads what no light changes. Errors: more voxels than indices or the GPU hold.
@@ -30,19 +35,21 @@ class TexelSet {
 
   const bake::TexelBake& bake() const { return *m_bake; }
   const std::vector<int>& levelStarts() const { return m_levelStarts; }  ///< in `bricks`
-  double densityRange() const { return m_densityRange; }
+  double extinctionRange() const { return m_extinctionRange; }           ///< 1/m
   double radianceRange() const { return m_radianceRange; }
   std::uint64_t bytes() const;  ///< on the GPU
-  void bind(GLuint bricks, GLuint voxels, GLuint leaves, GLuint soil) const;
+  /// To four texture units from `first` on, in the order above.
+  void bind(GLuint first) const;
 
  private:
   void setSoil(const wither::TexelLight& light, std::span<const float> groundSun, float perRange);
 
   std::shared_ptr<const bake::TexelBake> m_bake;
   std::vector<int> m_levelStarts;
-  double m_densityRange = 1.0, m_radianceRange = 1.0;
-  gpu::Buffer m_bricks, m_voxels, m_leaves, m_soil;
-  gpu::Texture m_bricksView, m_voxelsView, m_leavesView, m_soilView;
+  std::size_t m_places = 0;  ///< voxels of all stored bricks
+  double m_extinctionRange = 1.0, m_radianceRange = 1.0;
+  gpu::Buffer m_bricks, m_voxels, m_glosses, m_soil;
+  gpu::Texture m_bricksView, m_voxelsView, m_glossesView, m_soilView;
 };
 
 }  // namespace sward::render

@@ -44,6 +44,8 @@ class GroundTruth {
   /// The picture of a frame (camera, size, exposure, bend; samples are `samples`, filtered with the renderer's tent).
   Result<TruthPicture> picture(const render::Frame& frame, const TruthVariant& variant, int samples, std::uint64_t seed,
                                const JobContext& job) const;
+  /// Lights what follows otherwise.
+  void setDaylight(const scene::Daylight& light) { m_daylight = light; }
   /// Whether another bake laid its tiles the same way.
   bool laysSame(const bake::GroundBake& ground) const;
   std::uint64_t rays() const { return m_rays; }

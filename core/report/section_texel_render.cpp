@@ -7,6 +7,7 @@
 #include "report/picture_row.h"
 #include "report/speed_views.h"
 #include "report/texel_causes.h"
+#include "report/texel_suns.h"
 #include "report/texel_truth.h"
 #include "report/text.h"
 
@@ -138,6 +139,16 @@ double meanOf(const image::Image& image) {
   return sum / static_cast<double>(std::max<std::size_t>(image.pixels.size(), 1));
 }
 
+/// Which picture a row is of.
+void addPlace(const Degree& degree, const SpeedView& view, const std::string& levels, const render::Frame& frame,
+              Row& row) {
+  row.numbersAndNames["view"] = quotedText(view.name);
+  row.numbersAndNames["weathering"] = numberText(degree.texels.wither.weathering);
+  row.numbersAndNames["levels"] = levels;
+  row.numbersAndNames["width"] = std::to_string(frame.width);
+  row.numbersAndNames["height"] = std::to_string(frame.height);
+}
+
 void addNumbers(const Degree& degree, const SpeedView& view, const Drawer& drawer, const PictureReference& reference,
                 Row& row) {
   const double mean = meanOf(reference.picture.linear);
@@ -244,14 +255,44 @@ Result<void> addCauses(const Degree& degree, const std::vector<SpeedView>& views
   SWARD_ASSIGN(std::vector<std::vector<Row>> all, texelCauseRows(input, job));
   for (std::size_t i = 0; i < views.size(); ++i) {
     for (Row& row : all[i]) {
-      row.numbersAndNames["view"] = quotedText(views[i].name);
-      row.numbersAndNames["weathering"] = numberText(degree.texels.wither.weathering);
-      row.numbersAndNames["levels"] = finest.levels;
-      row.numbersAndNames["width"] = std::to_string(frames[i].width);
-      row.numbersAndNames["height"] = std::to_string(frames[i].height);
+      addPlace(degree, views[i], finest.levels, frames[i], row);
       section.rows.push_back(std::move(row));
     }
   }
+  return {};
+}
+
+/// The sun moved round the eye, for texels and layers.
+Result<void> addSuns(Degree& degree, const Drawer& layers, const Drawer& finest, Section& section,
+                     const JobContext& job) {
+  const SpeedView view{"45", 45.0, kNearM};
+  SWARD_ASSIGN(render::Frame frame, frameOf(degree, view));
+  frame.width /= 2;
+  frame.height /= 2;
+  const SunInput input{degree.texels, degree.daylight, degree.sizes.samples};
+  Plot plot;
+  plot.name = "texel_render_sun";
+  plot.title = "Texels and layers: where the sun stands";
+  plot.xLabel = "angle between eye and sun, from the ground, degrees";
+  plot.yLabel = "bias over the reference's mean";
+  plot.caption =
+      "0 degrees: the sun in the eye's back, on leaves that hide their own shadows; beyond 90 light comes through "
+      "them. "
+      "A level line at 0 is right.";
+  for (const Drawer* drawer : {&finest, &layers}) {
+    GroundTruth& truth = drawer == &layers ? degree.layerTruth : degree.texelTruth;
+    SWARD_ASSIGN(std::vector<Row> rows,
+                 sunRows(input, {drawer->method, *drawer->renderer, truth, drawnBy(*drawer, frame)}, job));
+    Plot::Series series{drawer->method, {}, true};
+    for (Row& row : rows) {
+      series.points.push_back(
+          {std::stod(row.numbersAndNames.at("phase_deg")), std::stod(row.numbersAndNames.at("relative_bias")), ""});
+      addPlace(degree, view, drawer->levels, frame, row);
+      section.rows.push_back(std::move(row));
+    }
+    plot.series.push_back(std::move(series));
+  }
+  section.plots.push_back(std::move(plot));
   return {};
 }
 
@@ -317,7 +358,7 @@ Result<Section> measureTexelRender(const SectionInput& input, const TexelRenderS
       if (job.onProgress) job.onProgress("weathering " + numberText(degrees[i]) + ", " + name, done);
     };
     step("bake", 0.0);
-    SWARD_ASSIGN(const Degree degree, makeDegree(input, sizes, degrees[i], baker, quiet));
+    SWARD_ASSIGN(Degree degree, makeDegree(input, sizes, degrees[i], baker, quiet));
     step("light", 0.3);
     SWARD_ASSIGN(const std::vector<Drawer> drawers, makeDrawers(degree, quiet));
     const bool last = i + 1 == degrees.size();
@@ -330,7 +371,9 @@ Result<Section> measureTexelRender(const SectionInput& input, const TexelRenderS
       done += 0.3 / static_cast<double>(views.size());
     }
     if (!sizes.causes || !last || drawers.size() < 2) continue;
-    step("causes", done);
+    step("sun", done);
+    SWARD_TRY(addSuns(degree, drawers.front(), drawers[1], section, quiet));
+    step("causes", done + 0.1);
     SWARD_TRY(addCauses(degree, views, drawers[1], section, quiet));
   }
   if (job.cancelled()) return Error::cancelled();

@@ -22,6 +22,8 @@ namespace sward::report {
 ///   leaves what is not light; voxels_without_points: the same of texels voxelised from the withered blades; points:
 ///   the one picture against the other; highlight: with and without; light: that light of the reference against its
 ///   own; sky, sun_disc and bounces as in section grassland.
+/// - texels_sun_behind, _across, _against and march_sun_...: view 45 at half the size with the sun elsewhere
+///   (texel_suns.h), at the last degree and the most columns.
 Result<Section> texelRenderSection(const SectionInput& input, const JobContext& job);
 
 struct TexelRenderSizes {

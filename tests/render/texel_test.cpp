@@ -1,11 +1,15 @@
 #include "render/fixture.h"
 
+#include "base/random.h"
+#include "terrain/height_field.h"
 #include "wither/extinction.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <numbers>
 
 namespace sward {
@@ -14,18 +18,19 @@ namespace {
 using testing::frameOf;
 using testing::makeStage;
 
-/// Level leaves in one layer of a block of 1 m, over white soil.
-std::shared_ptr<const bake::GroundBake> layerOf(int layer, float density, glm::vec3 colour) {
+/// Level leaves in a block of 1 m of 16 voxels a side, as dense as `density` says, over white soil.
+std::shared_ptr<const bake::GroundBake> blockOf(const std::function<float(glm::ivec3)>& density, glm::vec3 colour) {
   std::vector<wither::Texel::Entry> entries;
-  for (int y = 0; y < 16; ++y)
-    for (int x = 0; x < 16; ++x) {
-      wither::Voxel voxel;
-      voxel.density = density;
-      voxel.normal = {0.0f, 0.0f, 1.0f};
-      voxel.diffuse = colour;
-      voxel.spread[5] = density;
-      if (density > 0.0f) entries.push_back({{x, y, layer}, voxel});
-    }
+  for (int z = 0; z < 16; ++z)
+    for (int y = 0; y < 16; ++y)
+      for (int x = 0; x < 16; ++x) {
+        wither::Voxel voxel;
+        voxel.density = density({x, y, z});
+        voxel.normal = {0.0f, 0.0f, 1.0f};
+        voxel.diffuse = colour;
+        voxel.spread[5] = voxel.density;
+        if (voxel.density > 0.0f) entries.push_back({{x, y, z}, voxel});
+      }
   auto texels = std::make_shared<bake::TexelBake>();
   auto texel =
       std::make_shared<const wither::Texel>(wither::Texel::fromEntries({16, 16, 1.0, 1.0}, std::move(entries)).value());
@@ -38,6 +43,11 @@ std::shared_ptr<const bake::GroundBake> layerOf(int layer, float density, glm::v
   ground->map.tiles.assign(64, 0);
   ground->texels = std::move(texels);
   return ground;
+}
+
+/// In one layer.
+std::shared_ptr<const bake::GroundBake> layerOf(int layer, float density, glm::vec3 colour) {
+  return blockOf([&](const glm::ivec3& at) { return at.z == layer ? density : 0.0f; }, colour);
 }
 
 render::Frame downFrame(int samples) {
@@ -114,6 +124,83 @@ TEST(Texels, CoverTheGroundFromEverySide) {
       EXPECT_GT(mean.r, 10.0 * std::max(mean.g, 1e-9)) << "turn " << turn << ", from " << height;
     }
   }
+}
+
+/// Correlation of a picture's green with itself `lag` pixels on.
+double correlation(const image::Image& picture, int lag) {
+  double mean = 0.0;
+  for (std::size_t i = 1; i < picture.pixels.size(); i += 3) mean += static_cast<double>(picture.pixels[i]);
+  mean /= static_cast<double>(picture.pixels.size() / 3);
+  double product = 0.0, square = 0.0;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x + lag < picture.width; ++x) {
+      const double here = static_cast<double>(picture.rgb(x, y).g) - mean;
+      product += here * (static_cast<double>(picture.rgb(x + lag, y).g) - mean);
+      square += here * here;
+    }
+  return product / square;
+}
+
+TEST(Texels, DoNotRepeatInRowsWhereTheGridIsBent) {
+  auto stage = makeStage();
+  stage.renderer->setDaylight(testing::daylightAt(0.0, 90.0), 0.0);
+  // Black tufts on white soil, at places without order.
+  const auto tufts = blockOf(
+      [](const glm::ivec3& at) {
+        const auto lot = base::mix64(7, static_cast<std::uint64_t>(at.x / 2), static_cast<std::uint64_t>(at.y / 2));
+        return at.z == 0 && lot % 3 == 0 ? 400.0f : 0.0f;
+      },
+      glm::vec3(0.0f));
+  ASSERT_TRUE(stage.renderer->setGround(tufts).ok());
+  render::Frame frame = frameOf({0.0, 0.0, 40.0}, {0.0, 0.001, 0.0}, 256, 192, 4);
+  // Sixteen pixels a metre of ground, so that the block's side is whole pixels.
+  frame.camera.tanHalfWidth = 128.0 / 16.0 / 40.0;
+  frame.options.method = render::GroundMethod::Texels;
+  frame.options.macroVariation = 0.0;
+  frame.options.gridBendM = 0.0;
+  const double rows = correlation(stage.renderer->drawLinear(frame).value(), 16);
+  frame.options.gridBendM = 0.7;
+  const image::Image shifted = stage.renderer->drawLinear(frame).value();
+  // What is left of 1 (less noise) is the share of places whose neighbour a side away has the same cell, near none; and
+  // chance: 16 x 12 cells of some 20 tufts, of which the mean of 192 products strays by 0.1 at most.
+  EXPECT_GT(rows, 0.8);
+  EXPECT_LT(correlation(shifted, 16), 0.25 * rows);
+  EXPECT_EQ(shifted.pixels, stage.renderer->drawLinear(frame).value().pixels);
+}
+
+/// Over narrow crests no ray may come through grass that hides everything: between the highest grass of a column of
+/// pixels and its foot is grass alone, neither sky nor soil.
+TEST(Texels, HideTheGroundAndTheSkyAtCrests) {
+  auto stage = makeStage();
+  stage.renderer->setDaylight(testing::daylightAt(180.0, 50.0), 0.0);
+  const auto dense = [](const glm::ivec3& at) { return at.z < 5 ? 60.0f : 0.0f; };
+  ASSERT_TRUE(stage.renderer->setGround(blockOf(dense, glm::vec3(1.0f, 0.0f, 0.0f))).ok());
+  terrain::HeightGrid grid;
+  grid.columns = grid.rows = 129;
+  grid.cellM = glm::dvec2(1.0);
+  grid.origin = {-64.0, -64.0};
+  for (int y = 0; y < grid.rows; ++y)
+    for (int x = 0; x < grid.columns; ++x)
+      grid.heights.push_back(static_cast<float>(4.0 * std::sin(0.5 * y) * std::cos(0.2 * x) + 0.1 * y));
+  ASSERT_TRUE(stage.renderer->setTerrain(terrain::HeightField::create(std::move(grid)).value()).ok());
+  render::Frame frame = frameOf({0.0, -60.0, 9.0}, {0.0, 0.0, 4.0}, 160, 120, 4);
+  frame.options.method = render::GroundMethod::Texels;
+  const image::Image picture = stage.renderer->drawLinear(frame).value();
+  int grass = 0, through = 0;
+  for (int x = 0; x < picture.width; ++x) {
+    bool under = false;
+    int edge = 0;  // pixels of an outline are part sky
+    for (int y = 0; y < picture.height; ++y) {
+      const glm::vec3 seen = picture.rgb(x, y);
+      const bool red = seen.r > 6.0f * seen.g;
+      under = under || red;
+      edge = under ? edge + 1 : 0;
+      grass += red ? 1 : 0;
+      through += edge > 3 && !red ? 1 : 0;
+    }
+  }
+  EXPECT_GT(grass, 6000);
+  EXPECT_EQ(through, 0);
 }
 
 TEST(Texels, LightingThemEndsWhenItIsAskedTo) {

@@ -155,18 +155,20 @@ def check_picture(checks, where, row, folder, with_flip):
             checks.near(where, name, error[name], value, tolerance)
 
 
-    if "reference_mean" in parameters and "relative_bias" in parameters:
+    if "reference_mean" in parameters:
         mean = float(read_linear(files[1]).mean())
         # Every pixel is rounded by so much at most, and so their mean.
         checks.near(where, "reference_mean", parameters["reference_mean"], mean,
                     (HALF_RELATIVE + PARAMETER_DIGITS) * abs(mean) + HALF_ABSOLUTE)
-        relative = error["bias"] / parameters["reference_mean"]
-        checks.near(where, "relative_bias", parameters["relative_bias"], relative, 2 * PARAMETER_DIGITS * abs(relative))
 
 
 def check_noise(checks, where, row):
-    """What is left of the RMSE without the reference's noise, in quadrature."""
-    parameters, rmse = row["parameters"], row.get("error", {}).get("rmse")
+    """What is left of the RMSE without the reference's noise, in quadrature; and the bias over the mean."""
+    parameters, error = row["parameters"], row.get("error", {})
+    rmse = error.get("rmse")
+    if "relative_bias" in parameters and parameters["reference_mean"] > 0.0:
+        relative = error["bias"] / parameters["reference_mean"]
+        checks.near(where, "relative_bias", parameters["relative_bias"], relative, 2 * PARAMETER_DIGITS * abs(relative))
     if rmse is None or not {"reference_noise_rmse", "rmse_without_noise"} <= parameters.keys():
         return
     noise, left = parameters["reference_noise_rmse"], parameters["rmse_without_noise"]

@@ -6,7 +6,10 @@
 #include "base/curve.h"
 #include "image/metrics.h"
 #include "report/example.h"
+#include "render/frame_plan.h"
 #include "report/recompute.h"
+#include "report/speed_views.h"
+#include "report/texel_suns.h"
 #include "report/texel_truth.h"
 #include "report/writer.h"
 #include "wither/voxelise.h"
@@ -62,10 +65,22 @@ TEST(TexelRender, RowsAreWhatThePicturesShow) {
     EXPECT_EQ(row.ratio.has_value(), row.method == "texels");
   }
   // One view of the first degree, two of the last; two levels. Causes at the last degree.
-  const std::map<std::string, int> expected{
-      {"texels", 6},         {"march", 3},           {"cause_voxels", 2}, {"cause_voxels_without_points", 2},
-      {"cause_points", 2},   {"cause_highlight", 2}, {"cause_light", 2},  {"cause_sky", 2},
-      {"cause_sun_disc", 2}, {"cause_bounces", 2}};
+  const std::map<std::string, int> expected{{"texels_sun_behind", 1},
+                                            {"texels_sun_across", 1},
+                                            {"texels_sun_against", 1},
+                                            {"march_sun_behind", 1},
+                                            {"march_sun_across", 1},
+                                            {"march_sun_against", 1},
+                                            {"texels", 6},
+                                            {"march", 3},
+                                            {"cause_voxels", 2},
+                                            {"cause_voxels_without_points", 2},
+                                            {"cause_points", 2},
+                                            {"cause_highlight", 2},
+                                            {"cause_light", 2},
+                                            {"cause_sky", 2},
+                                            {"cause_sun_disc", 2},
+                                            {"cause_bounces", 2}};
   EXPECT_EQ(rows, expected);
   // The reference, each level's and the layers' pictures and differences, the layers' reference; of a view and degree.
   EXPECT_EQ(measured->strips.size(), 3U);
@@ -123,6 +138,40 @@ TEST(TexelRender, ACancelledJobSaysSo) {
   const auto measured = measureTexelRender({project, **context, folder.path(), true}, smallSizes(), job);
   ASSERT_FALSE(measured.ok());
   EXPECT_EQ(measured.error().kind, ErrorKind::Cancelled);
+}
+
+/// A matt plane is as bright from everywhere: leaves on it make what is left of the phase, and bare soil none.
+TEST(TexelRender, TheSunIsMovedRoundTheEye) {
+  const sward::test::TemporaryFolder folder("texel_render");
+  const auto context = gpu::Context::create(gpu::Device::Egl);
+  ASSERT_TRUE(context.ok()) << context.error().text();
+  project::Project project = texelProject();
+  for (project::Plant& plant : project.patch.plants) plant.densityPerM2 = 0.0;
+  project.patch.soil.colourVariation = 0.0;
+  bake::Baker baker;
+  const auto ground = baker.ground(project, {});
+  ASSERT_TRUE(ground.ok()) << ground.error().text();
+  const auto daylight = render::daylightOf(project);
+  ASSERT_TRUE(daylight.ok());
+  auto truth = GroundTruth::create(project, **ground, *daylight, {});
+  ASSERT_TRUE(truth.ok()) << truth.error().text();
+  auto renderer = render::Renderer::create(**context);
+  ASSERT_TRUE(renderer.ok() && (*renderer)->setGround(*ground).ok());
+  render::Frame frame;
+  frame.camera = *cameraOf({"45", 45.0, 3.0});
+  frame.width = 32;
+  frame.height = 18;
+  frame.options.method = render::GroundMethod::Texels;
+  frame.options.macroVariation = frame.options.gridBendM = 0.0;
+  const auto rows = sunRows({project, *daylight, 16}, {"texels", **renderer, *truth, frame}, {});
+  ASSERT_TRUE(rows.ok()) << rows.error().text();
+  ASSERT_EQ(rows->size(), 3U);
+  const double elevation = std::stod((*rows)[0].numbersAndNames.at("sun_elevation_deg"));
+  // Both lie in one plane with the zenith when the sun is behind or ahead.
+  EXPECT_NEAR(std::stod((*rows)[0].numbersAndNames.at("phase_deg")), std::abs(45.0 - elevation), 0.01);
+  EXPECT_NEAR(std::stod((*rows)[2].numbersAndNames.at("phase_deg")), 135.0 - elevation, 0.01);
+  // Noise of the sky's light; the soil's colour is kept to 10 bits of its root.
+  for (const Row& row : *rows) EXPECT_NEAR(std::stod(row.numbersAndNames.at("relative_bias")), 0.0, 0.02) << row.method;
 }
 
 /// Of all leaves that a texel holds: area, and the area-weighted mean of the height and of the reflectance.

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -210,6 +211,31 @@ TEST(Levels, OfOpaqueThinAndEmptyTexelsAreFinite) {
   ASSERT_TRUE(none.ok());
   EXPECT_EQ(none->size(), 2u);
   EXPECT_FALSE(halved(texelOf(cube(8), {}), {}).ok());
+}
+
+/// What a splat's tail leaves: so little along one axis that the mean transmittance is 1, and more along another.
+TEST(Levels, LeavesThatHideNothingAlongAnAxisAreFinite) {
+  for (const float along : {0.0f, 1e-36f, 1e-24f, 1e-12f}) {
+    Voxel voxel;
+    voxel.density = 3.0f + along;
+    voxel.normal = {1.0f, 0.0f, 0.0f};
+    voxel.spread = {2.0f, 0.5f, 0.0f, 1.0f, 0.0f, along};  // two axes: one alone is scaled in one step
+    Voxel thin;
+    thin.density = std::numeric_limits<float>::min();
+    thin.normal = {0.0f, 0.0f, 1.0f};
+    thin.spread = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, thin.density};
+    for (const Voxel& other : {voxel, thin}) {
+      const auto half = halved(texelOf(cube(16), {{{0, 0, 0}, other}, {{1, 1, 1}, thin}}), {});
+      ASSERT_TRUE(half.ok());
+      ASSERT_EQ(half->size(), 1U);
+      const Voxel& v = half->voxels()[0];
+      EXPECT_TRUE(std::isfinite(v.density) && v.density > 0.0f) << along;
+      for (const float s : v.spread) EXPECT_TRUE(std::isfinite(s)) << along;
+      if (other.density > 1.0f) {
+        EXPECT_GT(v.spread[0], 0.0f);
+      }
+    }
+  }
 }
 
 TEST(Opaque, AVoxelLetsThroughWhatItsLeafDoesNotCover) {

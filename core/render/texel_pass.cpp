@@ -52,6 +52,11 @@ void setLevels(gpu::Program& program, const TexelSet& set) {
   setIfUsed(program, "u_layers", grid.layers);
   setIfUsed(program, "u_extinctionRange", static_cast<float>(set.extinctionRange()));
   setIfUsed(program, "u_radianceRange", static_cast<float>(set.radianceRange()));
+  std::array<float, kMostLevels> unordered{};
+  for (std::size_t i = 0; i < levels; ++i) unordered[i] = static_cast<float>(set.phases()[i].unordered);
+  if (program.has("u_unordered")) program.set("u_unordered", std::span<const float>(unordered));
+  setIfUsed(program, "u_passed", glm::vec3(set.phases().front().passed));
+  setIfUsed(program, "u_sunPart", glm::vec3(set.phases().front().sun));
 }
 
 void setLight(gpu::Program& program, const PassInput& input, const Frame& frame, double weight) {

@@ -141,6 +141,35 @@ float mostExtinction(std::span<const Voxel> voxels) {
   return most.empty() ? 0.0f : *std::max_element(most.begin(), most.end());
 }
 
+/// Sums of a level's leaves, weighted by their area and by how much of the sky they see, as an eye above may see them.
+struct PhaseSums {
+  double weight = 0.0, unordered = 0.0;
+  glm::dvec3 reflected{0.0}, passed{0.0}, sun{0.0}, all{0.0};
+
+  void add(const Voxel& voxel, float share, float sky, const glm::vec3& fromSun, const wither::LitVoxel& lit) {
+    const double w = double{voxel.density} * double{sky};
+    weight += w;
+    unordered += w * (1.0 - double{share});
+    reflected += w * glm::dvec3(voxel.diffuse);
+    passed += w * glm::dvec3(voxel.transmitted);
+    sun += w * glm::dvec3(fromSun * (voxel.diffuse + voxel.transmitted));
+    all += w * glm::dvec3(lit.front + lit.back);
+  }
+  void add(const PhaseSums& other) {
+    weight += other.weight, unordered += other.unordered;
+    reflected += other.reflected, passed += other.passed, sun += other.sun, all += other.all;
+  }
+  wither::PhaseMeans means() const {
+    wither::PhaseMeans out;
+    if (weight > 0.0) out.unordered = unordered / weight;
+    for (int c = 0; c < 3; ++c) {
+      if (reflected[c] > 0.0) out.passed[c] = passed[c] / reflected[c];
+      if (all[c] > 0.0) out.sun[c] = std::min(sun[c] / all[c], 1.0);
+    }
+    return out;
+  }
+};
+
 template <typename T>
 gpu::Buffer bufferOf(const std::vector<T>& values) {
   return gpu::Buffer(std::as_bytes(std::span(values)));
@@ -182,18 +211,23 @@ Result<void> TexelSet::relight(const wither::TexelLight& light, const JobContext
   m_radianceRange = brightest(light);
   const PerRange per{static_cast<float>(1.0 / m_extinctionRange), static_cast<float>(1.0 / m_radianceRange)};
   const wither::LeafShading shading(light);
+  const glm::vec3 toSun(light.toSun);
   std::vector<std::uint32_t> words(m_places * kVoxelWords, 0), glosses(m_places, 0);
   std::size_t first = 0;
+  m_phases.clear();
   for (const auto& level : m_bake->levels) {
     const Texel& texel = *level.texel;
     SWARD_ASSIGN(const wither::SunReach reach, wither::sunReach(texel, light.toSun, job));
-    const auto fill = [&](std::size_t place, std::size_t i) {
+    std::vector<PhaseSums> sums((texel.stored().size() + kBrickGrain - 1) / kBrickGrain);
+    const auto fill = [&](std::size_t place, std::size_t i, PhaseSums& sum) {
       const Voxel& voxel = texel.voxels()[i];
       const auto share = static_cast<float>(wither::normalShare(voxel));
-      const wither::LitVoxel lit = shading(voxel, share, level.sky.front[i], level.sky.back[i], reach.voxels[i]);
+      const float sun = reach.voxels[i] * wither::throughOwnLeaves(texel.grid(), voxel, share, toSun);
+      const wither::LitVoxel lit = shading(voxel, share, level.sky.front[i], level.sky.back[i], sun);
       words[place * kVoxelWords] = mediumWord(voxel, share, per);
       words[place * kVoxelWords + 1] = colourWord(voxel, lit, per.radiance, base::mix64(place));
-      glosses[place] = octahedral(voxel.tangent) | byteOf(voxel.specular * reach.voxels[i]) << 16;
+      sum.add(voxel, share, level.sky.front[i] + level.sky.back[i], shading.fromSun(voxel, share, sun), lit);
+      glosses[place] = octahedral(voxel.tangent) | byteOf(voxel.specular * sun) << 16;
     };
     base::parallelFor(job, texel.stored().size(), kBrickGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t b = begin; b < end; ++b) {
@@ -202,11 +236,14 @@ Result<void> TexelSet::relight(const wither::TexelLight& light, const JobContext
         for (std::size_t z = 0; z < brick.mask.size(); ++z) {
           for (std::uint64_t bits = brick.mask[z]; bits != 0; bits &= bits - 1) {
             const std::size_t v = z * 64 + static_cast<std::size_t>(std::countr_zero(bits));
-            fill(first + b * kBrickVoxels + placeOf(v), i++);
+            fill(first + b * kBrickVoxels + placeOf(v), i++, sums[begin / kBrickGrain]);
           }
         }
       }
     });
+    PhaseSums whole;
+    for (const PhaseSums& some : sums) whole.add(some);
+    m_phases.push_back(whole.means());
     if (&level == m_bake->levels.data()) setSoil(light, reach.ground, per.radiance);
     first += texel.stored().size() * kBrickVoxels;
   }

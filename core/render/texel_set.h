@@ -4,6 +4,7 @@
 #include "base/result.h"
 #include "bake/texel_bake.h"
 #include "gpu/objects.h"
+#include "wither/leaf_phase.h"
 #include "wither/texel_light.h"
 
 #include <cstddef>
@@ -37,6 +38,8 @@ class TexelSet {
   const std::vector<int>& levelStarts() const { return m_levelStarts; }  ///< in `bricks`
   double extinctionRange() const { return m_extinctionRange; }           ///< 1/m
   double radianceRange() const { return m_radianceRange; }
+  /// Of every level, under the present light.
+  const std::vector<wither::PhaseMeans>& phases() const { return m_phases; }
   std::uint64_t bytes() const;  ///< on the GPU
   /// To four texture units from `first` on, in the order above.
   void bind(GLuint first) const;
@@ -48,6 +51,7 @@ class TexelSet {
   std::vector<int> m_levelStarts;
   std::size_t m_places = 0;  ///< voxels of all stored bricks
   double m_extinctionRange = 1.0, m_radianceRange = 1.0;
+  std::vector<wither::PhaseMeans> m_phases;
   gpu::Buffer m_bricks, m_voxels, m_glosses, m_soil;
   gpu::Texture m_bricksView, m_voxelsView, m_glossesView, m_soilView;
 };

@@ -143,6 +143,12 @@ Result<TexelSky> sweptSky(const Texel& texel, const JobContext& job) {
   return sky;
 }
 
+float throughOwnLeaves(const TexelGrid& grid, const Voxel& voxel, float share, const glm::vec3& l) {
+  const glm::vec3 voxels = glm::abs(l) / glm::vec3(grid.voxelM());
+  const float leadM = 1.0f / std::max(voxels.x, std::max(voxels.y, voxels.z));
+  return transmittanceOf((1.0f - share) * leadM * sectionToward(voxel, l));
+}
+
 Result<SunReach> sunReach(const Texel& texel, const glm::dvec3& toSun, const JobContext& job) {
   const auto columns = static_cast<std::size_t>(texel.grid().columns);
   SunReach reach{std::vector<float>(texel.size(), 0.0f), std::vector<float>(columns * columns, 0.0f)};

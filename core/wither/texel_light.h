@@ -47,6 +47,10 @@ struct SunReach {
   std::vector<float> voxels;  ///< one a voxel, from one voxel out of its middle on (sweepDepths)
   std::vector<float> ground;  ///< from the middle of each column's foot, [y][x]
 };
+/// How much of the sun comes on through a voxel's own leaves: those that have its normal do not shade themselves, but
+/// leaves that face every way are many and shade one another, as if the way from the voxel's middle to one voxel out
+/// were all as dense. `share`: normalShare(voxel). `l`: unit.
+float throughOwnLeaves(const TexelGrid& grid, const Voxel& voxel, float share, const glm::vec3& l);
 /// One sweep. `toSun`: unit. Errors: Error::cancelled().
 Result<SunReach> sunReach(const Texel& texel, const glm::dvec3& toSun, const JobContext& job);
 
@@ -66,6 +70,12 @@ class LeafShading {
     const glm::vec3 front = m_sun * (sun * sides.front) + m_sky * skyFront;
     const glm::vec3 back = m_sun * (sun * sides.back) + m_sky * skyBack;
     return {voxel.diffuse * front + voxel.transmitted * back, voxel.diffuse * back + voxel.transmitted * front};
+  }
+  /// Radiance that the sun gives white leaves of both sides together: its part in front + back, over diffuse +
+  /// transmitted.
+  glm::vec3 fromSun(const Voxel& voxel, float share, float sun) const {
+    const LeafSides sides = leafSides(voxel.normal, share, m_toSun);
+    return m_sun * (sun * (sides.front + sides.back));
   }
 
  private:

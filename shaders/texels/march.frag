@@ -29,10 +29,16 @@ uniform int u_columns;             // of level 0
 uniform int u_layers;
 uniform float u_extinctionRange;   // 1/m, of a stored extinction of 1
 uniform float u_radianceRange;
+// Means over the leaves, by wither/leaf_phase.h: of each level those that face every way; of all what they let through
+// over what they reflect, and the sun's part of their radiance.
+uniform float u_unordered[8];
+uniform vec3 u_passed;
+uniform vec3 u_sunPart;
 uniform float u_highlight;         // its radiance over the sun's irradiance at full gloss
 
 out vec4 o_radiance;
 
+const float kPi = 3.14159265;
 const float kLevelBiasTexels = 0.8;
 const float kCellJitter = 0.7;     // tiles, of the places that cells are round
 const float kCellBlurM = 0.06;     // width of the borders between cells
@@ -88,6 +94,16 @@ vec3 highlight(int place, vec3 d) {
   return u_sunIrradiance * (gloss * u_highlight * c / u_radianceRange);
 }
 
+// By how much leaves that face every way are brighter than in the mean over all eyes (wither/leaf_phase.h).
+vec3 leafPhase(vec3 d, int level) {
+  float c = clamp(-dot(d, u_sunDirection), -1.0, 1.0);
+  float b = acos(c);
+  float s = sqrt(1.0 - c * c);
+  vec2 seen = vec2((kPi - b) * c + s, s - b * c) * (8.0 / (3.0 * kPi));
+  vec3 phase = (seen.x + u_passed * seen.y) / (1.0 + u_passed);
+  return 1.0 + u_unordered[level] * u_sunPart * (phase - 1.0);
+}
+
 // A level's voxels along a ray.
 struct Grid {
   int start;     // in t_bricks
@@ -103,7 +119,7 @@ struct Grid {
 // in its stride the ray looks, so that the mean of many samples sees every voxel by the length that lies in it.
 // Highlights cost as much as all the rest: those of eight leaves alone are looked at, drawn by the shares that they have
 // in the picture.
-void marchVoxels(Grid grid, vec3 d, float tEnd, float lot, float otherLot) {
+void marchVoxels(Grid grid, vec3 d, float tEnd, float lot, float otherLot, vec3 phase) {
   float perColumn = 1.0 / grid.columns;
   float range = u_extinctionRange;
   float unit = kStride / length(grid.dv);
@@ -152,6 +168,7 @@ void marchVoxels(Grid grid, vec3 d, float tEnd, float lot, float otherLot) {
     g_sum *= before / max(before - g_left, 1e-6);
     g_left = 0.0;
   }
+  g_sum *= phase;
   for (int i = 0; i < 4; ++i) {
     if (g_left < firstPicks[i]) g_sum += 0.125 * before * highlight(firstPicked[i], d);
     if (g_left < lastPicks[i]) g_sum += 0.125 * before * highlight(lastPicked[i], d);
@@ -213,7 +230,7 @@ vec3 marchShell(Walk walk, vec3 d, float bend, bool soilSeen, vec3 random) {
     grid.dv = vec3(d.xy, walk.slopeZ) * perM;
     grid.bend = 0.5 * bend * perM.z;
     grid.top = layers - 1e-3;
-    marchVoxels(grid, d, tEnd, fourthRandom(random), fract(random.x + random.y));
+    marchVoxels(grid, d, tEnd, fourthRandom(random), fract(random.x + random.y), leafPhase(d, level));
   }
   vec3 radiance = g_sum;
   if (soilSeen && g_left > kTransmittanceEnd) {

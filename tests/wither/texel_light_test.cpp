@@ -137,5 +137,19 @@ TEST(TexelLight, EndsWhenItIsAskedTo) {
   EXPECT_EQ(sunReach(texel, {0.0, 0.0, 1.0}, job).error().kind, ErrorKind::Cancelled);
 }
 
+TEST(TexelLight, LeavesOfEveryDirectionShadeOneAnother) {
+  const TexelGrid grid{16, 16, 1.6, 1.6};  // voxels of a decimetre
+  Voxel voxel;
+  voxel.density = 12.0f;
+  for (const std::size_t i : {0u, 3u, 5u}) voxel.spread[i] = 4.0f;
+  const float share = static_cast<float>(normalShare(voxel));
+  EXPECT_NEAR(share, 0.0f, 1e-6f);
+  // Half of the area is turned to any light: 6 a metre over a voxel's length.
+  EXPECT_NEAR(throughOwnLeaves(grid, voxel, share, {0.0f, 0.0f, 1.0f}), std::exp(-0.6), 1e-4);
+  const glm::vec3 slanted = glm::normalize(glm::vec3(1.0f, 0.0f, 1.0f));
+  EXPECT_NEAR(throughOwnLeaves(grid, voxel, share, slanted), std::exp(-0.6 * std::sqrt(2.0)), 1e-4);
+  EXPECT_EQ(throughOwnLeaves(grid, voxel, 1.0f, {0.0f, 0.0f, 1.0f}), 1.0f) << "one leaf does not shade itself";
+}
+
 }  // namespace
 }  // namespace sward::wither

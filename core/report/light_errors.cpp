@@ -1,5 +1,7 @@
 #include "report/light_errors.h"
 
+#include "report/light_truth.h"
+
 #include "base/parallel.h"
 
 #include <algorithm>
@@ -183,6 +185,9 @@ ErrorSum betweenSamples(const LightSamples& samples) {
   for (std::size_t k = 0; k < samples.betweenLights.size(); ++k) {
     const trace::LayerLuminance& known = samples.truth[samples.betweenLights[k]];
     const auto sums = sumRows(samples, 1, {}, [&](std::size_t t, const Surroundings& s, ErrorSum* row) {
+      const bool allKnown =
+          std::all_of(s.column.begin(), s.column.end(), [&](int column) { return hasTruth(column, samples.shape()); });
+      if (!allKnown) return;
       double covered = 0.0;
       for (std::size_t i = 0; i < 4; ++i) covered += s.coverage[i] > 0.0 ? trueCoverage(samples, s.texel[i]) : 0.0;
       if (!(covered > 0.0)) return;

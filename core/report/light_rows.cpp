@@ -60,7 +60,8 @@ std::string sampleSummary(const LightSamples& samples) {
          "transmitted alike, negative predictions drawn as 0), weighted by the coverage of each layer texel. The truth "
          "has rays of its own, " +
          std::to_string(kTruthFactor * samples.subSamples) +
-         " a layer texel, so that no method is compared with the very leaves that it was fitted to. It is noisy "
+         " a layer texel in every second block of columns, so that no method is compared with the very leaves that it "
+         "was fitted to. It is noisy "
          "itself: "
          "its two halves put the standard deviation of one value at " +
          text("%.4f", std::sqrt(samples.noiseVariance)) +

@@ -68,7 +68,7 @@ Result<void> measureBetween(LightSamples& samples, trace::SamplingOptions option
   options.sliceSubSamples *= kTruthFactor;
   const double halfTexel = 0.5 * samples.patch->sideM / options.sliceResolution;
   SWARD_ASSIGN(const auto scene, trace::PatchScene::create(movedPatch(*samples.patch, halfTexel), job));
-  SWARD_ASSIGN(samples.between, sampleLayers(*scene, options, lightsBetween(samples), job));
+  SWARD_ASSIGN(samples.between, sampleLayers(*scene, options, Columns::WithTruth, lightsBetween(samples), job));
   return {};
 }
 
@@ -123,7 +123,7 @@ Result<std::shared_ptr<const LightSamples>> sampleLights(const SectionInput& inp
   quiet.onProgress = nullptr;
   SWARD_ASSIGN(const auto scene, trace::PatchScene::create(samples->patch, quiet));
   const auto start = std::chrono::steady_clock::now();
-  SWARD_ASSIGN(samples->train, sampleLayers(*scene, options, samples->training, quiet));
+  SWARD_ASSIGN(samples->train, sampleLayers(*scene, options, Columns::All, samples->training, quiet));
   SWARD_ASSIGN(trace::LayerVisibility seen, trace::sampleVisibility(*scene, samples->train.hits, options, quiet));
   samples->visibility = std::move(seen.visibility);
   samples->sky = {std::move(seen.skyReflected), std::move(seen.skyTransmitted)};

@@ -47,7 +47,7 @@ struct LightSamples {
   /// Train's texels under the held-out lights, by rays of their own, kTruthFactor times as many: a method that follows
   /// the very leaves that its own rays met would else be compared with those leaves, not with the texel.
   std::vector<trace::LayerLuminance> truth;
-  std::vector<float> truthCoverage;  ///< of train's texels by the truth's rays; 0 where these met nothing
+  std::vector<float> truthCoverage;  ///< of train's texels by the truth's rays; 0 without a truth (half the columns)
   /// Held-out lights, evenly chosen from high to low, under which places between texels are compared.
   std::vector<std::size_t> betweenLights;
   /// The patch moved by half a texel in x and y: its texel (x, y) lies between the four at x, x + 1, y, y + 1. One

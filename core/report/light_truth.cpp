@@ -31,6 +31,26 @@ std::vector<std::size_t> placesIn(const trace::LayerHits& other, const trace::La
   return places;
 }
 
+/// The hits of the columns that have a truth.
+trace::LayerHits withTruth(const trace::LayerHits& hits) {
+  trace::LayerHits kept;
+  kept.set = hits.set;
+  kept.shape = hits.shape;
+  kept.subSamples = hits.subSamples;
+  kept.columnStart.assign(1, 0);
+  kept.hitStart.assign(1, 0);
+  for (int column = 0; column < hits.shape.columns(); ++column) {
+    const auto c = static_cast<std::size_t>(column);
+    for (std::uint32_t t = hits.columnStart[c]; t < hits.columnStart[c + 1] && hasTruth(column, hits.shape); ++t) {
+      kept.layer.push_back(hits.layer[t]);
+      for (std::uint32_t h = hits.hitStart[t]; h < hits.hitStart[t + 1]; ++h) kept.hits.push_back(hits.hits[h]);
+      kept.hitStart.push_back(static_cast<std::uint32_t>(kept.hits.size()));
+    }
+    kept.columnStart.push_back(static_cast<std::uint32_t>(kept.layer.size()));
+  }
+  return kept;
+}
+
 struct Half {
   SampledLight sampled;
   std::vector<std::size_t> places;
@@ -71,10 +91,15 @@ class Union {
 
 }  // namespace
 
+bool hasTruth(int column, const trace::LayerShape& shape) {
+  return (column % shape.width / kTruthBlock + column / shape.width / kTruthBlock) % 2 == 0;
+}
+
 Result<SampledLight> sampleLayers(const trace::PatchScene& scene, const trace::SamplingOptions& options,
-                                  std::span<const glm::dvec3> lights, const JobContext& job) {
+                                  Columns columns, std::span<const glm::dvec3> lights, const JobContext& job) {
   SampledLight out;
   SWARD_ASSIGN(out.hits, trace::sampleHits(scene, trace::LayerSet::Slices, options, job));
+  if (columns == Columns::WithTruth) out.hits = withTruth(out.hits);
   out.coverage = coverageOf(out.hits);
   for (const glm::dvec3& light : lights) {
     SWARD_ASSIGN(trace::LayerLuminance one, trace::sampleLuminance(scene, out.hits, light, job));
@@ -92,7 +117,7 @@ Result<HeldOutTruth> sampleTruth(const trace::PatchScene& scene, trace::Sampling
   Half halves[2];
   for (std::size_t i = 0; i < 2; ++i) {
     options.seed = seed ^ kHalfSeeds[i];
-    SWARD_ASSIGN(halves[i].sampled, sampleLayers(scene, options, lights, job));
+    SWARD_ASSIGN(halves[i].sampled, sampleLayers(scene, options, Columns::WithTruth, lights, job));
     halves[i].places = placesIn(halves[i].sampled.hits, texels);
   }
   HeldOutTruth truth;

@@ -1,8 +1,10 @@
 #include "render/fixture.h"
+#include "render/texel_set.h"
 
 #include "base/random.h"
 #include "terrain/height_field.h"
 #include "wither/extinction.h"
+#include "wither/leaf_phase.h"
 
 #include <gtest/gtest.h>
 
@@ -104,6 +106,58 @@ TEST(Texels, OpaqueLeavesShowTheirLitSide) {
   const glm::dvec3 lit =
       daylight.sunIrradiance() * (daylight.sunDirection().z / std::numbers::pi) + daylight.meanSkyRadiance() * sky;
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c] / (double{green[c]} * lit[c]), 1.0, 0.02);
+}
+
+/// A thin layer of leaves that face every way, over black soil: both eyes of the test look through as much of it.
+std::shared_ptr<const bake::GroundBake> mossOf(glm::vec3 reflected, glm::vec3 passed) {
+  auto ground = std::make_shared<bake::GroundBake>(*layerOf(12, 24.0f, reflected));
+  auto texels = std::make_shared<bake::TexelBake>(*ground->texels);
+  texels->soil.assign(256, glm::vec3(0.0f));
+  std::vector<wither::Texel::Entry> entries;
+  for (int i = 0; i < 256; ++i) {
+    wither::Voxel voxel;
+    voxel.density = 24.0f;
+    for (const std::size_t k : {0u, 3u, 5u}) voxel.spread[k] = voxel.density / 3.0f;
+    voxel.diffuse = reflected;
+    voxel.transmitted = passed;
+    entries.push_back({{i % 16, i / 16, 12}, voxel});
+  }
+  const wither::Texel moss = wither::Texel::fromEntries({16, 16, 1.0, 1.0}, std::move(entries)).value();
+  texels->levels[0] = {std::make_shared<const wither::Texel>(moss), wither::sweptSky(moss, {}).value()};
+  ground->texels = std::move(texels);
+  return ground;
+}
+
+TEST(Texels, LeavesOfEveryDirectionAnswerToWhereTheEyeStands) {
+  auto stage = makeStage();
+  const scene::Daylight daylight = testing::daylightAt(90.0, 50.0);
+  stage.renderer->setDaylight(daylight, 0.0);
+  const auto ground = mossOf({0.3f, 0.3f, 0.3f}, {0.06f, 0.15f, 0.3f});
+  ASSERT_TRUE(stage.renderer->setGround(ground).ok());
+  auto set = render::TexelSet::create(ground->texels);
+  ASSERT_TRUE(set.ok());
+  const glm::dvec3 toSun = daylight.sunDirection();
+  ASSERT_TRUE(set->relight({toSun, daylight.sunIrradiance(), daylight.meanSkyRadiance()}, {}).ok());
+  const wither::PhaseMeans means = set->phases().front();
+  EXPECT_NEAR(means.unordered, 1.0, 1e-6);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(means.passed[c], 0.2 + 0.3 * c + (c == 2 ? 0.2 : 0.0), 1e-5);
+  const glm::dvec3 target(0.3, 0.2, 0.8);
+  const auto seenFrom = [&](const glm::dvec3& toEye) {
+    render::Frame frame = frameOf(target + 6.0 * toEye, target, 64, 48, 16, 200.0);
+    frame.options.method = render::GroundMethod::Texels;
+    frame.options.macroVariation = 0.0;
+    return meanOf(stage.renderer->drawLinear(frame).value());
+  };
+  const auto factor = [&](const glm::dvec3& toEye, int c) {
+    return 1.0 + means.unordered * means.sun[c] * (wither::leafPhase(glm::dot(toEye, toSun), means.passed[c]) - 1.0);
+  };
+  const glm::dvec3 behind = toSun, against = glm::normalize(glm::dvec3(-toSun.x, -toSun.y, toSun.z));
+  const glm::dvec3 first = seenFrom(behind), second = seenFrom(against);
+  // Colours of 5 and 6 bits, dithered; a lens of some degrees.
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(first[c] / second[c], factor(behind, c) / factor(against, c), 0.04 * first[c] / second[c]) << c;
+  }
+  EXPECT_GT(first.r / second.r, 1.3) << "leaves that let little through are darker against the sun";
 }
 
 /// Every direction of view is drawn without holes: neither NaN nor black, nor sky where ground must be.

@@ -247,7 +247,8 @@ TEST_F(LightSections, APerfectPredictionHasOnlyTheErrorOfInterpolationBetweenTex
   const ErrorSum drawn = total(between->drawn), covered = betweenSamples(samples());
   EXPECT_GT(covered.squares, 0.0);
   EXPECT_LT(covered.weights, drawn.weights * (1.0 + 1e-12));
-  EXPECT_GT(covered.weights, 0.8 * drawn.weights);
+  // Of 8 x 8 columns with a truth 7 x 7 places between lie between four of them.
+  EXPECT_GT(covered.weights, 0.6 * drawn.weights);
   const double rounding = 1e-6 * drawn.weights;  // of predictions kept in float
   EXPECT_GE(drawn.squares, covered.squares - rounding);
   EXPECT_LE(drawn.squares, covered.squares + (drawn.weights - covered.weights) + rounding);

@@ -168,11 +168,14 @@ void describe(A& a, typename A::template Ref<render::RenderOptions> v) {
               .decades(0.5, 100.0)
               .in("Look")
               .says("Patch size", "Width of the brighter and darker patches."));
-  a.field("gridBendM", v.gridBendM,
-          range(0.0, 2.0, "m")
-              .in("Look")
-              .expert()
-              .says("Grid bend", "Bends the rows of tiles, so that none can be followed to the horizon."));
+  a.field(
+      "gridBendM", v.gridBendM,
+      range(0.0, 2.0, "m")
+          .in("Look")
+          .expert()
+          .says("Grid bend",
+                "Bends the rows of tiles, so that none can be followed to the horizon. Texels are laid in cells that "
+                "show other parts of their block instead. 0 turns both off."));
 }
 
 template <typename A>

@@ -74,6 +74,7 @@ double trueCoverage(const LightSamples& samples, std::size_t texel) {
 }  // namespace
 
 void ErrorSum::add(double weight, double difference) {
+  if (!(weight > 0.0)) return;  // no truth to differ from
   ++count;
   weights += weight;
   squares += weight * difference * difference;

@@ -19,7 +19,7 @@ struct ErrorSum {
   std::uint64_t count = 0;
   double weights = 0.0, squares = 0.0, errors = 0.0, max = 0.0;
 
-  void add(double weight, double difference);
+  void add(double weight, double difference);  ///< a weight of 0 counts as nothing, whatever the difference
   void add(const ErrorSum& other);
   double mse() const { return weights > 0.0 ? squares / weights : 0.0; }
   double rmse() const;

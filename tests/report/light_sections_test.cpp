@@ -69,6 +69,7 @@ TEST(ErrorSum, IsWeighted) {
   ErrorSum sum;
   sum.add(1.0, 0.5);
   sum.add(3.0, -0.1);
+  sum.add(0.0, 7.0);  // nothing to compare with
   EXPECT_EQ(sum.count, 2u);
   EXPECT_DOUBLE_EQ(sum.mse(), (0.25 + 3.0 * 0.01) / 4.0);
   EXPECT_DOUBLE_EQ(sum.bias(), (0.5 - 0.3) / 4.0);

@@ -61,7 +61,7 @@ std::string settingsHtml(const ReportHead& head, const std::vector<Section>& sec
   std::string out = "<dl>\n" + entry("Sward", escaped(head.version));
   if (!head.project.empty()) out += entry("Project", "<code>" + escaped(head.project) + "</code>");
   if (!head.commandLine.empty()) out += entry("Command", commandHtml(head.commandLine));
-  out += entry("Effort", head.quick ? "quick: fewer runs, smaller sizes" : "full");
+  out += entry("Effort", head.quick ? "quick: fewer runs, smaller sizes, grounds at half quality" : "full");
   for (const auto& [name, value] : head.settings) out += entry(name, escaped(value));
   std::string seconds;
   double total = 0.0;

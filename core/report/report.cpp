@@ -1,5 +1,7 @@
 #include "report/report.h"
 
+#include "bake/quality.h"
+
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -68,6 +70,10 @@ Json rowJson(const Row& row) {
 }
 
 }  // namespace
+
+project::Project groundProject(const project::Project& project, bool quick) {
+  return quick ? bake::atQuality(project, bake::Quality::Half) : project;
+}
 
 Machine thisMachine(const gpu::DeviceInfo& device) {
   // "MemTotal: 12345 kB"

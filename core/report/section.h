@@ -23,6 +23,10 @@ struct SectionInput {
   bool quick = false;                 ///< fewer runs and smaller sizes, for CI
 };
 
+/// What a quick run draws in the place of the project's own ground: the project at half quality, baked in seconds where
+/// nothing is in the cache. Else the project itself.
+project::Project groundProject(const project::Project& project, bool quick);
+
 /// A picture of the report: written as NAME.exr (linear) and NAME.png (display) under pictures/, shown in the page.
 /// A row whose errors were measured on two of them names both in its parameters, so that others can measure again:
 ///   "picture": "\"NAME\"", "reference_picture": "\"NAME\"": names without endings; both have `linear`

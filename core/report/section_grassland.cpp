@@ -153,7 +153,9 @@ constexpr const char* kSummary =
 }  // namespace
 
 Result<Section> grasslandSection(const SectionInput& input, const JobContext& job) {
-  return measureGrassland(input, input.quick ? kQuick : GrasslandSizes{}, job);
+  const project::Project project = groundProject(input.project, input.quick);
+  const SectionInput drawn{project, input.context, input.cacheFolder, input.quick};
+  return measureGrassland(drawn, input.quick ? kQuick : GrasslandSizes{}, job);
 }
 
 Result<Section> measureGrassland(const SectionInput& input, const GrasslandSizes& sizes, const JobContext& job) {

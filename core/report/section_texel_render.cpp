@@ -339,7 +339,9 @@ std::vector<SpeedView> viewsOf(const std::vector<std::string>& names, double sid
 }  // namespace
 
 Result<Section> texelRenderSection(const SectionInput& input, const JobContext& job) {
-  return measureTexelRender(input, input.quick ? quickSizes() : TexelRenderSizes{}, job);
+  const project::Project project = groundProject(input.project, input.quick);
+  const SectionInput drawn{project, input.context, input.cacheFolder, input.quick};
+  return measureTexelRender(drawn, input.quick ? quickSizes() : TexelRenderSizes{}, job);
 }
 
 Result<Section> measureTexelRender(const SectionInput& input, const TexelRenderSizes& sizes, const JobContext& job) {

@@ -214,9 +214,7 @@ Result<std::vector<Row>> pictureRows(const Bench& bench, Section& section) {
   return rows;
 }
 
-}  // namespace
-
-Result<Section> tilesSection(const SectionInput& input, const JobContext& job) {
+Result<Section> measureTiles(const SectionInput& input, const JobContext& job) {
   SWARD_ASSIGN(bake::DiskCache cache, bake::DiskCache::open(input.cacheFolder));
   bake::Baker baker(std::move(cache));
   const bake::GroundRequest request{input.project};
@@ -250,6 +248,13 @@ Result<Section> tilesSection(const SectionInput& input, const JobContext& job) {
   for (Row& row : pictures) section.rows.push_back(std::move(row));
   if (job.cancelled()) return Error::cancelled();
   return section;
+}
+
+}  // namespace
+
+Result<Section> tilesSection(const SectionInput& input, const JobContext& job) {
+  const project::Project project = groundProject(input.project, input.quick);
+  return measureTiles(SectionInput{project, input.context, input.cacheFolder, input.quick}, job);
 }
 
 }  // namespace sward::report

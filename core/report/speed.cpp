@@ -4,6 +4,7 @@
 #include "bake/plants.h"
 #include "render/frame_plan.h"
 #include "render/renderer.h"
+#include "report/section.h"
 #include "report/speed_edit.h"
 #include "report/speed_fit.h"
 #include "report/speed_render.h"
@@ -141,6 +142,8 @@ Result<std::vector<Row>> single(Result<Row> row) {
 
 Result<std::vector<Row>> speedRows(const SpeedInput& input, const JobContext& job) {
   using Step = std::function<Result<std::vector<Row>>(const JobContext&)>;
+  const project::Project ground = groundProject(input.project, input.quick);
+  const SpeedInput drawn{ground, input.context, input.cacheFolder, input.quick};
   std::vector<std::pair<std::string, Step>> steps;
   // The cold render comes first, so that its peak of memory is its own.
   if (!input.quick) {
@@ -148,8 +151,8 @@ Result<std::vector<Row>> speedRows(const SpeedInput& input, const JobContext& jo
   }
   steps.emplace_back("layer_sampling", [&](const JobContext& j) { return single(samplingRow(input, j)); });
   steps.emplace_back("lpt_fit", [&](const JobContext& j) { return single(Result<Row>(lptFitRow(j, input.quick))); });
-  steps.emplace_back("drawing", [&](const JobContext& j) { return drawingRows(input, j); });
-  steps.emplace_back("render_warm", [&](const JobContext& j) { return single(warmRow(input, j)); });
+  steps.emplace_back("drawing", [&](const JobContext& j) { return drawingRows(drawn, j); });
+  steps.emplace_back("render_warm", [&](const JobContext& j) { return single(warmRow(drawn, j)); });
   steps.emplace_back("edit_preview", [&](const JobContext& j) { return editPreviewRows(input, j); });
   steps.emplace_back("curve_preview", [&](const JobContext& j) { return curvePreviewRows(input, j); });
   steps.emplace_back("storage", [&](const JobContext& j) { return Result<std::vector<Row>>(storageRows(j)); });

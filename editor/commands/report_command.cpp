@@ -199,7 +199,7 @@ void addReportCommand(CLI::App& app, Program& program) {
       ->type_name("NAME")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_flag("--quick", request->quick, "Fewer runs and smaller sizes, in under a minute");
+  command->add_flag("--quick", request->quick, "Fewer runs, smaller sizes, grounds at half quality; in under a minute");
   command->add_option("--device", request->device, "OpenGL: auto, egl or osmesa [auto]")->type_name("D");
   command->callback(
       [&program, request] { program.run = [&program, request] { return runReport(program, *request); }; });

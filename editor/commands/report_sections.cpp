@@ -25,7 +25,7 @@ using report::SectionInput;
 
 /// The row edit_stall: what the window's thread is kept from while an author drags a blade's height and bakes run.
 Result<report::Row> stallRow(const Program& program, const std::string& projectFile, const SectionInput& input) {
-  constexpr double kLimitMs = 100.0, kSeconds = 6.0, kQuickSeconds = 3.0;
+  constexpr double kLimitMs = 100.0, kSeconds = 6.0, kQuickSeconds = 2.0;
   ApplicationOptions options;
   options.project = projectFile;
   options.overrides = program.common.overrides;

@@ -1,7 +1,8 @@
 #include "export/frame_files.h"
 
+#include "base/two_numbers.h"
+
 #include <array>
-#include <charconv>
 #include <cstdio>
 #include <optional>
 #include <utility>
@@ -10,16 +11,6 @@ namespace sward::exporting {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::optional<std::pair<int, int>> twoNumbers(const std::string& text, char separator) {
-  std::pair<int, int> numbers;
-  const char* end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, numbers.first);
-  if (first.ec != std::errc{} || first.ptr == end || *first.ptr != separator) return std::nullopt;
-  const auto second = std::from_chars(first.ptr + 1, end, numbers.second);
-  if (second.ec != std::errc{} || second.ptr != end) return std::nullopt;
-  return numbers;
-}
 
 /// A name taken apart at its conversions.
 struct Parts {
@@ -63,7 +54,7 @@ Parts partsOf(const std::string& name) {
 Result<FrameRange> parseFrames(const std::string& text, int frames) {
   const std::string remedy = "Give FIRST:LAST, both included, such as 0:" + std::to_string(frames - 1) +
                              "; the sequence has " + std::to_string(frames) + " frames (sequence.frames).";
-  const auto numbers = twoNumbers(text, ':');
+  const auto numbers = base::twoNumbers<int>(text, ':');
   if (!numbers) return Error::badInput("\"" + text + "\" is no range of frames", "--frames", remedy);
   const auto [first, last] = *numbers;
   if (first > last) return Error::badInput("the first frame of " + text + " comes after the last", "--frames", remedy);
@@ -75,7 +66,7 @@ Result<FrameRange> parseFrames(const std::string& text, int frames) {
 }
 
 Result<Shard> parseShard(const std::string& text) {
-  const auto numbers = twoNumbers(text, '/');
+  const auto numbers = base::twoNumbers<int>(text, '/');
   if (!numbers || numbers->second < 1 || numbers->first < 1 || numbers->first > numbers->second) {
     return Error::badInput("\"" + text + "\" is no shard", "--shard",
                            "Give I/N with I from 1 to N, such as 1/4 for the first of four machines.");

@@ -1,5 +1,7 @@
 #include "render_plan.h"
 
+#include "base/two_numbers.h"
+
 #include "methods.h"
 
 #include "image/io.h"
@@ -10,7 +12,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -19,21 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Two numbers parted by `separator`, nothing else around them.
-template <typename T>
-std::optional<std::pair<T, T>> twoNumbers(const std::string& text, char separator) {
-  std::pair<T, T> numbers;
-  const char* end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, numbers.first);
-  if (first.ec != std::errc{} || first.ptr == end || *first.ptr != separator) return std::nullopt;
-  const auto second = std::from_chars(first.ptr + 1, end, numbers.second);
-  if (second.ec != std::errc{} || second.ptr != end) return std::nullopt;
-  return numbers;
-}
-
 Result<void> applySize(const std::string& text, project::Project& project) {
   if (text.empty()) return {};
-  const auto size = twoNumbers<std::int64_t>(text, 'x');
+  const auto size = base::twoNumbers<std::int64_t>(text, 'x');
   const std::string remedy = "Give WIDTHxHEIGHT in pixels, such as 1280x720: 1 to 16384 each.";
   if (!size) return Error::badInput("\"" + text + "\" is not a size", "--size", remedy);
   const auto [width, height] = *size;
@@ -47,7 +36,7 @@ Result<void> applySize(const std::string& text, project::Project& project) {
 
 Result<void> applySun(const std::string& text, project::Project& project) {
   if (text.empty()) return {};
-  const auto angles = twoNumbers<double>(text, ',');
+  const auto angles = base::twoNumbers<double>(text, ',');
   const std::string remedy = "Give AZIMUTH,ELEVATION in degrees, such as 225,35 (clockwise from north, up).";
   if (!angles || !std::isfinite(angles->first) || !std::isfinite(angles->second)) {
     return Error::badInput("\"" + text + "\" is not a sun position", "--sun", remedy);

@@ -135,7 +135,7 @@ TEST(LightTruth, TexelsThatNoRayMetHaveNoWeight) {
   sky.layer.assign(1, 0);
   sky.hitStart.assign(1, 0);
   const auto first = texels.columnStart[1] - texels.columnStart[0];
-  if (first > 0 && texels.layer[0] == 0) GTEST_SKIP() << "the first column reaches the top";
+  ASSERT_FALSE(first > 0 && texels.layer[0] == 0) << "this seed's first column reaches the top: choose another";
   for (const std::uint8_t layer : texels.layer) sky.layer.push_back(layer);
   for (const std::uint32_t start : texels.hitStart) sky.hitStart.push_back(start);
   for (std::size_t c = 1; c < sky.columnStart.size(); ++c) ++sky.columnStart[c];
